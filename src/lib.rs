@@ -1,0 +1,10 @@
+//! dosmc: from a `.dosm` mission to a plan that is proved in exact arithmetic.
+
+pub mod diag;
+pub mod entity;
+pub mod exact;
+pub mod geometry;
+pub mod ir;
+pub mod plan;
+pub mod source;
+pub mod syntax;

@@ -1,0 +1,3 @@
+//! From text to syntax tree. The only module that names `pest`.
+
+pub mod ast;
