@@ -1,5 +1,7 @@
 //! Plans, and the `plan.json` that carries them with every witness (interfaces.md §2).
 
+pub mod json;
+
 use std::collections::BTreeMap;
 
 /// A plan with all its witnesses. All numbers are SI doubles, meant exactly as they stand.
