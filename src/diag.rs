@@ -3,6 +3,14 @@
 //! A phase pushes [`Diagnostic`]s into [`Diagnostics`] and returns [`Reported`] when it cannot go on.
 //! Each phase keeps one small function a diagnostic beside its own code; nothing here knows them.
 
+mod excerpt;
+pub mod json;
+mod lines;
+mod printable;
+pub mod render;
+
+pub use printable::printable;
+
 use crate::source::Span;
 
 /// How much a diagnostic weighs.
