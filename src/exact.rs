@@ -9,7 +9,7 @@ use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use dashu_base::Signed;
+use dashu_base::{Gcd, Signed, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
@@ -149,6 +149,36 @@ impl Rational {
 pub fn dot(a: &[Rational], b: &[Rational]) -> Rational {
     debug_assert_eq!(a.len(), b.len());
     a.iter().zip(b).filter(|(x, y)| !x.is_zero() && !y.is_zero()).map(|(x, y)| x * y).sum()
+}
+
+/// The positive multiple of a vector whose entries are whole and have no common divisor; a zero
+/// vector is returned as it is.
+pub fn primitive(vector: &[Rational]) -> Vec<Rational> {
+    let mut denominator = UBig::ONE;
+    for x in vector {
+        let d = x.0.denominator();
+        denominator = &denominator / (&denominator).gcd(d) * d;
+    }
+    let scale = Rational(RBig::from(denominator));
+    let whole: Vec<Rational> = vector.iter().map(|x| x * &scale).collect();
+    let divisor = whole.iter().fold(UBig::ZERO, |g, x| gcd(&g, x.0.numerator()));
+    if divisor == UBig::ZERO {
+        return vector.to_vec();
+    }
+    let divisor = Rational(RBig::from(divisor));
+    whole.into_iter().map(|x| x / &divisor).collect()
+}
+
+/// The greatest common divisor where 0 divides nothing but itself.
+fn gcd(a: &UBig, b: &IBig) -> UBig {
+    let b = b.clone().unsigned_abs();
+    if *a == UBig::ZERO {
+        b
+    } else if b == UBig::ZERO {
+        a.clone()
+    } else {
+        a.gcd(&b)
+    }
 }
 
 impl From<i64> for Rational {
@@ -298,6 +328,13 @@ mod tests {
         assert_eq!(Rational::ratio(1, 3).to_string(), "1/3");
         assert_eq!(Rational::ratio(-5, 4).to_string(), "-1.25");
         assert_eq!(Rational::from(12).to_string(), "12");
+    }
+
+    #[test]
+    fn primitive_vectors_keep_their_direction() {
+        let v = [Rational::ratio(-3, 10), Rational::ZERO, Rational::ratio(9, 4)];
+        assert_eq!(primitive(&v), [Rational::from(-2), Rational::ZERO, Rational::from(15)]);
+        assert_eq!(primitive(&[Rational::ZERO]), [Rational::ZERO]);
     }
 
     #[test]
