@@ -1,5 +1,7 @@
 //! dosmc: from a `.dosm` mission to a plan that is proved in exact arithmetic.
 
+pub mod back;
+pub mod cli;
 pub mod diag;
 pub mod entity;
 pub mod exact;

@@ -1,1 +1,7 @@
-fn main() {}
+//! The `dosmc` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    dosmc::cli::main()
+}

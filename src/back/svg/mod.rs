@@ -1,0 +1,28 @@
+//! The picture of a plan: the workspace to scale, what is in it, and every robot's way with its tube.
+//!
+//! The picture is static and self-contained. Numbers have a fixed number of decimals and everything
+//! is drawn in the mission's order, so the same plan gives the same bytes. A mission in space is
+//! seen from above.
+
+mod canvas;
+mod legend;
+mod shapes;
+mod ways;
+
+use crate::back::Artifact;
+use crate::ir::Problem;
+use crate::plan::Plan;
+use canvas::{Canvas, escape};
+
+/// The file's name in the output directory.
+pub const NAME: &str = "plan.svg";
+
+/// Draws a plan of a problem.
+pub fn draw(problem: &Problem, plan: &Plan) -> Artifact {
+    let mut canvas = Canvas::new(&problem.workspace, legend::height(problem));
+    shapes::draw(&mut canvas, problem);
+    ways::draw(&mut canvas, problem, plan);
+    legend::draw(&mut canvas, problem, plan);
+    let title = format!("{}: {}", problem.name, legend::summary(plan));
+    Artifact { name: NAME.into(), contents: canvas.finish(&escape(&title)) }
+}

@@ -1,0 +1,134 @@
+//! The commands, their arguments and their help.
+
+use std::time::Duration;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use super::time::parse_time;
+
+/// The whole command line.
+#[derive(Parser, Debug)]
+#[command(
+    name = "dosmc",
+    version,
+    about = "Plans for teams of robots that must stay in radio contact despite jammers and disturbances",
+    long_about = "dosmc reads a mission (.dosm): a workspace, who jams it, who moves in it and how, and what must happen.\n\
+It looks for the shortest plan that holds for every disturbance allowed, on an infinite run, and checks \
+that plan again in exact arithmetic before it gives it out.",
+    after_help = "Exit status: 0 done · 1 usage or files · 2 errors in the mission · 3 no plan · 4 unknown · 5 a plan does not check\n\n\
+Start with:  dosmc new relay  &&  dosmc solve relay.dosm -o out",
+    subcommand_required = true,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Flags of every command.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Flags of every command.
+#[derive(clap::Args, Debug, Clone)]
+pub struct Common {
+    /// Override a `param` of the mission, as in `--set robots=4`; repeatable
+    #[arg(long, global = true, value_name = "NAME=EXPR", value_parser = parse_set, help_heading = "Mission")]
+    pub set: Vec<(String, String)>,
+    /// Try plans of A to B steps, whatever the mission's own `horizon` says
+    #[arg(long, global = true, value_name = "A..B", value_parser = parse_horizon, help_heading = "Mission")]
+    pub horizon: Option<(usize, usize)>,
+    /// Stop searching after so long: `30 s`, `2min`, `500ms`, or seconds
+    #[arg(long, global = true, value_name = "TIME", value_parser = parse_time, help_heading = "Search")]
+    pub timeout: Option<Duration>,
+    /// Use at most so many threads; the answer does not depend on it
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Search")]
+    pub threads: Option<u16>,
+    /// Print one JSON object on standard output, and nothing else there
+    #[arg(long, global = true, help_heading = "Output")]
+    pub json: bool,
+    /// Say nothing but errors
+    #[arg(long, short, global = true, help_heading = "Output", conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more: sizes and times of each part
+    #[arg(long, short, global = true, action = clap::ArgAction::Count, help_heading = "Output")]
+    pub verbose: u8,
+    /// When to use colours
+    #[arg(long, global = true, value_enum, default_value_t = Color::Auto, value_name = "WHEN", help_heading = "Output")]
+    pub color: Color,
+}
+
+/// When to use colours.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Color {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Write a starter mission, NAME.dosm
+    #[command(after_help = "The mission is small, complete and explained line by line; \
+`dosmc solve NAME.dosm -o out` plans it.")]
+    New {
+        /// The mission's name: letters, digits and `_`
+        name: String,
+    },
+}
+
+/// `NAME=EXPR`
+fn parse_set(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("it must be NAME=EXPR, as in `robots=4`")?;
+    let (name, value) = (name.trim(), value.trim());
+    if name.is_empty() || value.is_empty() {
+        return Err("both sides of `=` are needed, as in `robots=4`".into());
+    }
+    Ok((name.into(), value.into()))
+}
+
+/// The longest plan that may be asked for (language.md §2).
+const LONGEST: usize = 100_000;
+
+/// `A..B` with 1 ≤ A ≤ B
+fn parse_horizon(text: &str) -> Result<(usize, usize), String> {
+    let ends = text.split_once("..").ok_or("it must be A..B, as in `1..40`")?;
+    let end = |s: &str| s.trim().parse::<usize>().map_err(|_| format!("`{s}` is no number of steps"));
+    let (from, to) = (end(ends.0)?, end(ends.1)?);
+    if from < 1 || from > to || to > LONGEST {
+        return Err(format!("it must have 1 ≤ A ≤ B ≤ {LONGEST}"));
+    }
+    Ok((from, to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn assignments_need_both_sides() {
+        assert_eq!(parse_set("a = 1 == 2"), Ok(("a".into(), "1 == 2".into())));
+        for bad in ["a", "=1", "a=", " = "] {
+            assert!(parse_set(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn horizons_are_ordered_and_bounded() {
+        assert_eq!(parse_horizon("3..17"), Ok((3, 17)));
+        for bad in ["", "3", "0..4", "5..4", "1..100001", "a..b", "1..-2", "1..99999999999999999999"] {
+            assert!(parse_horizon(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Reading missions and plans, and writing results whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::output::plain_error;
+use crate::back::Artifact;
+use crate::diag::{Diagnostic, printable};
+
+/// The largest file that is read; no mission or plan comes near it.
+const LARGEST: u64 = 256 << 20;
+
+/// The name by which standard input is called.
+pub const STDIN: &str = "<stdin>";
+
+/// The name that messages call a path by.
+pub fn shown_name(path: &Path) -> String {
+    if path == Path::new("-") { STDIN.into() } else { path.to_string_lossy().into_owned() }
+}
+
+/// The bytes of a file, or of standard input for `-`.
+///
+/// # Errors
+/// A diagnostic that names the file and why it can't be read.
+pub fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    let bytes = if path == Path::new("-") { read_some(io::stdin().lock()) } else { read_file(path) };
+    let bytes = bytes.map_err(|e| unreadable(path, &reason(&e)))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(unreadable(path, "it is larger than 256 MiB"));
+    }
+    Ok(bytes)
+}
+
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    if path.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    read_some(File::open(path)?)
+}
+
+/// All that a reader gives, up to just more than the largest file allowed.
+fn read_some(reader: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn unreadable(path: &Path, why: &str) -> Diagnostic {
+    plain_error("dosm::cli::unreadable", format!("can't read `{}`: {why}", printable(&shown_name(path))))
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
+    let name = path.to_string_lossy();
+    plain_error("dosm::cli::unwritable", format!("can't write `{}`: {}", printable(&name), reason(error)))
+}
+
+/// Why, in a few words.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file or directory".into(),
+        io::ErrorKind::PermissionDenied => "permission denied".into(),
+        io::ErrorKind::IsADirectory => "it is a directory".into(),
+        io::ErrorKind::NotADirectory => "a part of its path is no directory".into(),
+        io::ErrorKind::AlreadyExists => "it is there already".into(),
+        io::ErrorKind::StorageFull => "the disk is full".into(),
+        _ => error.to_string(),
+    }
+}
+
+/// A directory that results go to, made ready before the work that fills it.
+pub struct OutputDirectory {
+    path: PathBuf,
+    created: bool,
+}
+
+impl OutputDirectory {
+    /// Creates the directory where needed and tries whether it can be written to.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't be created or written to.
+    pub fn open(path: &Path) -> Result<OutputDirectory, Diagnostic> {
+        let created = !path.is_dir();
+        fs::create_dir_all(path).map_err(|e| unwritable(path, &e))?;
+        let directory = OutputDirectory { path: path.into(), created };
+        directory.temporary().map_err(|e| unwritable(path, &e))?;
+        Ok(directory)
+    }
+
+    /// Takes the directory away again when it was made for nothing.
+    pub fn abandon(self) {
+        if self.created {
+            // Only an empty directory can be removed so: nothing is lost.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+
+    /// Writes all artifacts, or none; they appear in the order given, each at once.
+    ///
+    /// # Errors
+    /// A diagnostic when one can't be written.
+    pub fn write(&self, artifacts: &[Artifact]) -> Result<Vec<PathBuf>, Diagnostic> {
+        let mut ready = Vec::new();
+        for artifact in artifacts {
+            let path = self.path.join(&artifact.name);
+            let file = self.filled(artifact.contents.as_bytes()).map_err(|e| unwritable(&path, &e))?;
+            ready.push((path, file));
+        }
+        let mut written = Vec::new();
+        for (path, file) in ready {
+            file.persist(&path).map_err(|e| unwritable(&path, &e.error))?;
+            written.push(path);
+        }
+        self.sync();
+        Ok(written)
+    }
+
+    /// A temporary file with some contents that are on the disk.
+    fn filled(&self, contents: &[u8]) -> io::Result<NamedTempFile> {
+        let mut file = self.temporary()?;
+        file.write_all(contents)?;
+        file.as_file().sync_all()?;
+        Ok(file)
+    }
+
+    /// A temporary file beside the results, so that a rename puts it in place.
+    fn temporary(&self) -> io::Result<NamedTempFile> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".dosmc-");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        builder.tempfile_in(&self.path)
+    }
+
+    /// Makes the renames last, where directories can be synced.
+    fn sync(&self) {
+        if let Ok(directory) = File::open(&self.path) {
+            let _ = directory.sync_all();
+        }
+    }
+}
+
+/// Writes a new file; one that is there is left alone.
+///
+/// # Errors
+/// A diagnostic when it is there already or can't be written.
+pub fn create(path: &Path, contents: &str) -> Result<(), Diagnostic> {
+    let mut file = File::create_new(path).map_err(|e| unwritable(path, &e))?;
+    file.write_all(contents.as_bytes()).map_err(|e| {
+        // A half-written file is worse than none.
+        let _ = fs::remove_file(path);
+        unwritable(path, &e)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn artifact(name: &str, contents: &str) -> Artifact {
+        Artifact { name: name.into(), contents: contents.into() }
+    }
+
+    #[test]
+    fn a_failed_write_changes_nothing() {
+        let dir = tempfile::tempdir().expect("a directory");
+        let out = OutputDirectory::open(&dir.path().join("a/b")).expect("it can be made");
+        out.write(&[artifact("plan.svg", "old"), artifact("plan.json", "old")]).expect("it can be written");
+        assert!(out.write(&[artifact("plan.svg", "new"), artifact("no/such/place", "x")]).is_err());
+        let names = fs::read_dir(dir.path().join("a/b")).expect("it is there").count();
+        assert_eq!(names, 2, "no temporary file stays");
+    }
+
+    #[test]
+    fn an_empty_directory_made_for_nothing_goes_away() {
+        let dir = tempfile::tempdir().expect("a directory");
+        OutputDirectory::open(&dir.path().join("new")).expect("it can be made").abandon();
+        OutputDirectory::open(dir.path()).expect("it is there").abandon();
+        assert!(dir.path().is_dir() && !dir.path().join("new").exists());
+    }
+}

@@ -1,0 +1,79 @@
+//! The command line: the only part that touches files, clock, terminal and environment.
+//!
+//! Results go to standard output, everything else to standard error; the exit statuses are a
+//! promise ([`Status`]). What the commands do is in [`driver`](crate::driver).
+
+mod args;
+mod files;
+mod new;
+mod output;
+mod time;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::error::ErrorKind;
+
+use crate::diag::Diagnostic;
+use args::{Args, Command};
+use output::Output;
+
+/// What the exit status says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Done; for `solve`, a plan was found and checked.
+    Done = 0,
+    /// Wrong usage, or a file that can't be read or written.
+    Usage = 1,
+    /// The mission has errors.
+    Mission = 2,
+    /// No plan of any length in the horizon.
+    NoPlan = 3,
+    /// Time, memory or numerics ran out first.
+    Unknown = 4,
+    /// A plan does not check.
+    Refused = 5,
+}
+
+impl Status {
+    /// The exit status's value.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Runs the command that the process was started with.
+pub fn main() -> ExitCode {
+    let status = match Args::try_parse() {
+        Ok(args) => run(args),
+        Err(error) => answer_without_command(&error),
+    };
+    ExitCode::from(status.code())
+}
+
+/// Runs a command.
+fn run(args: Args) -> Status {
+    let output = Output::new(&args.common);
+    match args.command {
+        Command::New { name } => new::new(&name, &output),
+    }
+}
+
+/// Help and version, or what is wrong with the usage.
+fn answer_without_command(error: &clap::Error) -> Status {
+    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    let json = std::env::args_os().skip(1).take_while(|a| a != "--").any(|a| a == "--json");
+    if json && !asked {
+        let text = error.to_string();
+        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        return Output::json_only().fail(usage(message));
+    }
+    // A reader that went away needs no help any more.
+    let _ = error.print();
+    if asked { Status::Done } else { Status::Usage }
+}
+
+/// Wrong usage, found after the arguments were read one by one.
+fn usage(message: impl Into<String>) -> Diagnostic {
+    output::plain_error("dosm::cli::usage", message)
+}

@@ -1,0 +1,133 @@
+//! What is said to the user and to programs, and where.
+
+use std::io::{self, IsTerminal, Write};
+
+use serde::Serialize;
+
+use super::Status;
+use super::args::{Color, Common};
+use crate::diag::json::{JsonDiagnostic, to_json};
+use crate::diag::render::{Style, render};
+use crate::diag::{Diagnostic, Severity};
+use crate::source::{SourceFile, Span};
+
+/// The streams, and how much to say on them.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Whether standard output gets one JSON object and nothing else.
+    pub json: bool,
+    /// Whether to say nothing but errors.
+    pub quiet: bool,
+    /// How much more to say.
+    pub verbose: u8,
+    style: Style,
+}
+
+/// What `--json` prints when a command stops with an error.
+#[derive(Serialize)]
+pub struct JsonFailure {
+    /// Always `error`.
+    pub status: &'static str,
+    /// What was wrong.
+    pub diagnostics: Vec<JsonDiagnostic>,
+}
+
+impl Output {
+    /// The streams as the flags want them.
+    pub fn new(common: &Common) -> Output {
+        let color = match common.color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => colors_by_default(),
+        };
+        let width = terminal_size::terminal_size().map_or(100, |(w, _)| usize::from(w.0).clamp(60, 120));
+        Output {
+            json: common.json,
+            quiet: common.quiet,
+            verbose: common.verbose,
+            style: Style { color, width },
+        }
+    }
+
+    /// Nothing but JSON, for when the flags could not be read.
+    pub fn json_only() -> Output {
+        Output { json: true, quiet: true, verbose: 0, style: Style::PLAIN }
+    }
+
+    /// Prints a result for people on standard output.
+    ///
+    /// # Errors
+    /// [`Status::Usage`] when it can't be written, which was said.
+    pub fn say(&self, text: &str) -> Result<(), Status> {
+        if self.json || self.quiet { Ok(()) } else { self.print(text) }
+    }
+
+    /// Prints a result for programs on standard output.
+    ///
+    /// # Errors
+    /// [`Status::Usage`] when it can't be written, which was said.
+    pub fn json(&self, value: &impl Serialize) -> Result<(), Status> {
+        if !self.json {
+            return Ok(());
+        }
+        let text = serde_json::to_string(value).map_err(|_| Status::Usage)?;
+        self.print(&text)
+    }
+
+    /// Says something on standard error that is no error.
+    pub fn note(&self, text: &str) {
+        if !self.quiet {
+            self.complain(text);
+        }
+    }
+
+    /// Draws diagnostics on standard error; quiet keeps warnings back.
+    pub fn diagnostics<'a>(&self, source: &SourceFile, all: impl IntoIterator<Item = &'a Diagnostic>) {
+        let kept = all.into_iter().filter(|d| !self.quiet || d.severity == Severity::Error);
+        if !self.json {
+            self.complain(render(source, kept, self.style).trim_end_matches('\n'));
+        }
+    }
+
+    /// Ends a command with an error that has no place in a mission.
+    pub fn fail(&self, diagnostic: Diagnostic) -> Status {
+        self.fail_in(&SourceFile::new("", ""), &[diagnostic], Status::Usage)
+    }
+
+    /// Ends a command with errors in a source.
+    pub fn fail_in(&self, source: &SourceFile, diagnostics: &[Diagnostic], status: Status) -> Status {
+        self.diagnostics(source, diagnostics);
+        let failure = JsonFailure { status: "error", diagnostics: to_json(source, diagnostics) };
+        self.json(&failure).err().unwrap_or(status)
+    }
+
+    fn print(&self, text: &str) -> Result<(), Status> {
+        let mut out = io::stdout().lock();
+        match writeln!(out, "{text}").and_then(|()| out.flush()) {
+            Ok(()) => Ok(()),
+            // Whoever closed the pipe has read enough.
+            Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+            Err(e) => {
+                self.complain(&format!("dosmc: can't write to standard output: {e}"));
+                Err(Status::Usage)
+            }
+        }
+    }
+
+    fn complain(&self, text: &str) {
+        if !text.is_empty() {
+            // There is nobody left to tell when standard error is gone.
+            let _ = writeln!(io::stderr().lock(), "{text}");
+        }
+    }
+}
+
+/// An error without a place.
+pub fn plain_error(code: &'static str, message: impl Into<String>) -> Diagnostic {
+    Diagnostic { labels: Vec::new(), ..Diagnostic::error(code, message, Span::default(), "") }
+}
+
+fn colors_by_default() -> bool {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+    io::stderr().is_terminal() && !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")
+}
