@@ -73,6 +73,14 @@ impl Canvas {
         self.body.push('\n');
     }
 
+    /// Adds a name that stays readable over whatever lies below it.
+    ///
+    /// The halo is a text of its own: not every viewer knows `paint-order`.
+    pub fn name(&mut self, at: Pixel, class: &str, contents: &str) {
+        self.text(at, &format!("halo {class}"), contents);
+        self.text(at, &format!("name {class}"), contents);
+    }
+
     /// Adds a text; its contents are escaped here.
     pub fn text(&mut self, at: Pixel, class: &str, contents: &str) {
         let element =
@@ -136,7 +144,8 @@ fn ticks(low: f64, extent: f64) -> Vec<(f64, String)> {
         .find(|s| *s >= rough)
         .unwrap_or(rough);
     let decimals = if step >= 1.0 { 0 } else { (-step.log10()).ceil() as usize };
-    let first = (low / step).ceil();
+    // A hair of slack, so that rounding does not lose a tick on the edge.
+    let first = (low / step - 1e-9).ceil();
     let all =
         (0..20).map(|i| (first + f64::from(i)) * step).take_while(|t| *t <= low + extent * (1.0 + 1e-9));
     all.map(|t| (t, number(t, decimals))).collect()

@@ -9,6 +9,9 @@ mod legend;
 mod shapes;
 mod ways;
 
+#[cfg(test)]
+mod tests;
+
 use crate::back::Artifact;
 use crate::ir::Problem;
 use crate::plan::Plan;
@@ -22,6 +25,7 @@ pub fn draw(problem: &Problem, plan: &Plan) -> Artifact {
     let mut canvas = Canvas::new(&problem.workspace, legend::height(problem));
     shapes::draw(&mut canvas, problem);
     ways::draw(&mut canvas, problem, plan);
+    shapes::draw_names(&mut canvas, problem);
     legend::draw(&mut canvas, problem, plan);
     let title = format!("{}: {}", problem.name, legend::summary(plan));
     Artifact { name: NAME.into(), contents: canvas.finish(&escape(&title)) }

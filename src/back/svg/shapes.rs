@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Pixel, escape, px};
 use crate::exact::Rational;
 use crate::ir::{BlockerKind, Piece, Problem, Shape};
 
-/// Draws all of it, with names.
+/// Draws all of it.
 pub fn draw(canvas: &mut Canvas, problem: &Problem) {
     for region in problem.regions.values() {
         shape(canvas, &region.shape, "region", &region.name);
@@ -14,17 +14,24 @@ pub fn draw(canvas: &mut Canvas, problem: &Problem) {
     }
     let corners = outline(canvas, &problem.workspace.vertices);
     canvas.add(&format!(r#"<path class="frame" d="{}"/>"#, closed(&corners)));
+    for base in problem.bases.values() {
+        let at = canvas.pixel(&doubles(&base.position));
+        mast(canvas, at);
+    }
+}
+
+/// Writes the names of all of it.
+pub fn draw_names(canvas: &mut Canvas, problem: &Problem) {
     for region in problem.regions.values() {
-        name(canvas, &region.shape, "name mid in-region", &region.name);
+        name(canvas, &region.shape, "mid in-region", &region.name);
     }
     for blocker in problem.blockers.values() {
-        let color = if blocker.kind == BlockerKind::Jammer { "name mid in-jammer" } else { "name mid" };
+        let color = if blocker.kind == BlockerKind::Jammer { "mid in-jammer" } else { "mid" };
         name(canvas, &blocker.shape, color, &blocker.name);
     }
     for base in problem.bases.values() {
         let at = canvas.pixel(&doubles(&base.position));
-        mast(canvas, at);
-        canvas.text((at.0, at.1 + 22.0), "name mid", &base.name);
+        canvas.name((at.0, at.1 + 22.0), "mid", &base.name);
     }
 }
 
@@ -89,7 +96,7 @@ fn name(canvas: &mut Canvas, shape: &Shape, class: &str, name: &str) {
         Some(Piece::Ball { center, .. }) => canvas.pixel(&doubles(center)),
         None => return,
     };
-    canvas.text((middle.0, middle.1 + 4.0), class, name);
+    canvas.name((middle.0, middle.1 + 4.0), class, name);
 }
 
 /// The convex outline of points seen from above, in pixels.

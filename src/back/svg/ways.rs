@@ -112,11 +112,13 @@ impl Way {
             px(x),
             px(y)
         ));
+        let (x, y) = (x + 9.0, y - 7.0);
+        canvas.text((x, y), "halo", &self.name);
         let name = escape(&self.name);
         canvas.add(&format!(
             r#"<text class="name" x="{}" y="{}" style="fill:{color}">{name}</text>"#,
-            px(x + 9.0),
-            px(y - 7.0)
+            px(x),
+            px(y)
         ));
     }
 }
