@@ -10,4 +10,5 @@ pub mod ir;
 pub mod plan;
 pub mod source;
 pub mod syntax;
+pub mod tube;
 pub mod verify;
