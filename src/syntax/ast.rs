@@ -34,7 +34,32 @@ pub struct File {
     pub items: Vec<Item>,
     /// `///` comments that document nothing (a warning each).
     pub stray_docs: Vec<Span>,
+    /// The declarations that could not be read; an error was reported for each.
+    pub broken: Vec<Broken>,
     /// The whole text.
+    pub span: Span,
+}
+
+impl File {
+    /// Whether a declaration of this name could not be read, so that its absence is no news.
+    pub fn has_broken(&self, name: &str) -> bool {
+        self.broken.iter().any(|b| b.name.as_ref().is_some_and(|n| n.text == name))
+    }
+
+    /// Whether a declaration that begins with this word could not be read.
+    pub fn has_broken_keyword(&self, keyword: &str) -> bool {
+        self.broken.iter().any(|b| b.keyword == keyword)
+    }
+}
+
+/// A declaration that could not be read.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Broken {
+    /// The word that it begins with (`opaque obstacle` begins with `obstacle`), or whatever stands there.
+    pub keyword: String,
+    /// The name that it was to declare, where one can be seen.
+    pub name: Option<Name>,
+    /// The place of all of it.
     pub span: Span,
 }
 

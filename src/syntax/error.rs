@@ -1,0 +1,242 @@
+//! The diagnostics of the syntax phase, one small function each.
+
+use crate::diag::Diagnostic;
+use crate::exact::Rational;
+use crate::source::Span;
+use crate::syntax::characters::shown;
+use crate::syntax::climb::MAX_LEVELS;
+use crate::syntax::scan::{Bracket, MAX_NAME, MAX_NESTING};
+
+/// After so many errors the rest isn't looked at.
+pub(super) const MAX_ERRORS: usize = 500;
+
+/// The longest text, in bytes.
+pub(super) const MAX_TEXT: usize = 64 << 20;
+
+/// The most digits of a number.
+pub(super) const MAX_DIGITS: usize = 4_000;
+
+pub(super) fn not_utf8(offset: usize) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::not_utf8",
+        format!("the text is no UTF-8: byte {offset} begins no character"),
+        Span::new(offset, offset),
+        "the first byte that can't be read",
+    )
+    .with_help("save the file in the encoding UTF-8")
+}
+
+pub(super) fn text_too_long(length: usize) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::text_too_long",
+        format!("the text has {length} bytes; a mission has at most {MAX_TEXT}"),
+        Span::new(0, 0),
+        "",
+    )
+}
+
+pub(super) fn empty(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::empty", "there is no mission in this text", span, "")
+        .with_help("a mission begins with `dosm 1` and needs a `workspace` and a `robot`")
+}
+
+pub(super) fn too_many(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::too_many_errors",
+        format!("more than {MAX_ERRORS} errors; the rest of the text was not looked at"),
+        span,
+        "given up here",
+    )
+}
+
+pub(super) fn too_nested(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::too_nested",
+        format!("{what} nest more than {MAX_NESTING} deep"),
+        span,
+        format!("level {}", MAX_NESTING + 1),
+    )
+}
+
+pub(super) fn too_deep(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::too_deep",
+        format!("this {what} has more than {MAX_LEVELS} levels"),
+        span,
+        "",
+    )
+    .with_help("name parts of it with `define` or `let`")
+}
+
+pub(super) fn long_name(span: Span, length: usize) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::long_name",
+        format!("a name has at most {MAX_NAME} characters, this one has {length}"),
+        span,
+        "",
+    )
+}
+
+pub(super) fn hidden_character(span: Span, character: char, name: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::hidden_character",
+        format!("U+{:04X}, {name}, can't stand in a mission", character as u32),
+        span,
+        "here",
+    )
+    .with_help("remove it, or put an ordinary blank in its place")
+}
+
+pub(super) fn lookalike(span: Span, character: char, meant: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::lookalike",
+        format!("`{character}` (U+{:04X}) is no sign of the language", character as u32),
+        span,
+        "",
+    )
+    .with_help(match meant {
+        "\"" => "there are no quotation marks in missions".to_owned(),
+        _ => format!("write `{meant}`"),
+    })
+}
+
+pub(super) fn foreign_letter(span: Span, character: char) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::foreign_letter",
+        format!("`{character}` (U+{:04X}) can't stand in a name", character as u32),
+        span,
+        "",
+    )
+    .with_help("names are made of the letters a to z and A to Z, digits and `_`")
+}
+
+pub(super) fn unknown_character(span: Span, character: char) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::unknown_character",
+        format!("`{character}` (U+{:04X}) is no sign of the language", character as u32),
+        span,
+        "",
+    )
+}
+
+pub(super) fn unclosed_comment(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::unclosed_comment", "this comment doesn't end", span, "it begins here")
+        .with_help("each `/*` needs its own `*/`; comments nest")
+}
+
+pub(super) fn bracket(bracket: Bracket, end: Span) -> Diagnostic {
+    let span = Span::new(bracket.offset, bracket.offset + 1);
+    let sign = bracket.sign;
+    if bracket.opening {
+        Diagnostic::error(
+            "dosm::syntax::unclosed_bracket",
+            format!("`{sign}` is never closed"),
+            span,
+            "opened here",
+        )
+        .with_label(end, "not closed up to here")
+    } else {
+        Diagnostic::error("dosm::syntax::unopened_bracket", format!("`{sign}` closes nothing"), span, "")
+    }
+}
+
+pub(super) fn missing_edition(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::missing_edition",
+        "a mission begins with its language's edition",
+        span,
+        "something else stands first",
+    )
+    .with_help("begin the file with `dosm 1`")
+}
+
+pub(super) fn unknown_edition(span: Span, value: &Rational) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::unknown_edition",
+        format!("there is no edition {value} of the language here"),
+        span,
+        "this version knows edition 1",
+    )
+    .with_help("write `dosm 1`")
+}
+
+pub(super) fn number_range(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::number_range",
+        "numbers lie between 1e-300 and 1e300, or are 0",
+        span,
+        "out of range",
+    )
+}
+
+pub(super) fn number_too_long(span: Span, digits: usize) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::number_too_long",
+        format!("a number has at most {MAX_DIGITS} digits, this one has {digits}"),
+        span,
+        "",
+    )
+}
+
+pub(super) fn unit_exponent(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::unit_exponent",
+        "a unit's exponent lies between -64 and 64 and is not 0",
+        span,
+        "",
+    )
+}
+
+pub(super) fn unit_in_exponent(span: Span, power: &str, unit: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::unit_in_exponent",
+        "the unit belongs to the exponent, since units bind tighter than every operator",
+        span,
+        "an exponent with a unit",
+    )
+    .with_help(format!("write `({}) {}`", shown(power), shown(unit)))
+}
+
+pub(super) fn unit_twice(inner: Span, outer: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::unit_twice",
+        "a unit follows a bracket whose inside has a unit already",
+        outer,
+        "a second unit",
+    )
+    .with_label(inner, "the first one")
+    .with_help("keep one of them")
+}
+
+pub(super) fn window_on_next(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::window_on_next", "`next` takes no window", span, "this window")
+        .with_help("`next` is one step; for the step n write `always[n, n]` or `eventually[n, n]`")
+}
+
+pub(super) fn missing_comma(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::missing_comma", "a comma is missing between two entries", span, "")
+        .with_help("entries of a row are separated by commas: `[0, 1]`; a difference is written `a - b`")
+}
+
+pub(super) fn unreadable(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::expected", "this can't be read", span, "")
+}
+
+pub(super) fn reserved_word(span: Span, word: &str) -> Diagnostic {
+    let what = match word {
+        "X" | "F" | "G" | "U" | "R" | "W" | "M" => "an operator of formulas",
+        _ => "a word of the language",
+    };
+    Diagnostic::error(
+        "dosm::syntax::reserved_word",
+        format!("`{word}` is {what} and can't be a name"),
+        span,
+        "a name is expected here",
+    )
+    .with_help(format!("choose another name, such as `{}`", other_name(word)))
+}
+
+/// A name near a reserved word.
+fn other_name(word: &str) -> String {
+    if word.len() == 1 { format!("{word}1") } else { format!("{word}_1") }
+}
