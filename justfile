@@ -1,0 +1,32 @@
+# `just` lists these; CI runs `.ci/run`.
+
+# What has to pass before a commit.
+check: fmt lint test
+
+# Formatting, without changing anything.
+fmt:
+    cargo fmt --check
+
+# All lints as errors.
+lint:
+    cargo clippy --all-targets -- -D warnings
+
+# All tests.
+test:
+    cargo test --release
+
+# Plans the paper's Fig. 2 into out/.
+demo:
+    cargo run --release -- solve examples/paper/fig2-4.dosm -o out
+
+# Writes changed snapshots beside the old ones and goes through them one by one (needs cargo-insta).
+review:
+    cargo insta test --review
+
+# Fails on changed, new and unused snapshots (needs cargo-insta).
+snapshots:
+    cargo insta test --check --unreferenced=reject
+
+# Licences, sources and advisories of all dependencies (needs cargo-deny).
+deny:
+    cargo deny check
