@@ -29,7 +29,7 @@
 //! 7. [`verify`] believes none of the above: it checks a plan against a problem in exact arithmetic.
 //! 8. [`back`] draws it.
 //!
-//! `driver` is this chain as code. [`cli`] is the command line around it.
+//! [`driver`] is this chain as code. [`cli`] is the command line around it.
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
 //! places in it), [`geometry`] (polytopes, zonotopes) and [`diag`] (one diagnostic for all phases).
 //!
@@ -53,6 +53,7 @@
 pub mod back;
 pub mod cli;
 pub mod diag;
+pub mod driver;
 pub mod entity;
 pub mod exact;
 pub mod geometry;

@@ -1,5 +1,6 @@
 //! The commands, their arguments and their help.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -73,6 +74,14 @@ pub enum Color {
 /// The commands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Say what is wrong with missions, and how to mend it
+    #[command(after_help = "Tubes are computed and the start is looked at too; nothing is searched for. \
+Exit status: 0 no errors, 1 a file can't be read, 2 errors.")]
+    Check {
+        /// The missions; `-` is standard input
+        #[arg(required = true, value_name = "MISSION")]
+        missions: Vec<PathBuf>,
+    },
     /// Write a starter mission, NAME.dosm
     #[command(after_help = "The mission is small, complete and explained line by line; \
 `dosmc solve NAME.dosm -o out` plans it.")]

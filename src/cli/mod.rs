@@ -3,8 +3,12 @@
 //! Results go to standard output, everything else to standard error; the exit statuses are a
 //! promise ([`Status`]). What the commands do is in [`driver`](crate::driver).
 
+#![allow(clippy::disallowed_methods, reason = "this is where files, clock and environment belong")]
+
 mod args;
+mod check;
 mod files;
+mod mission;
 mod new;
 mod output;
 mod time;
@@ -15,6 +19,7 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use crate::diag::Diagnostic;
+use crate::driver::Overrides;
 use args::{Args, Command};
 use output::Output;
 
@@ -54,9 +59,19 @@ pub fn main() -> ExitCode {
 /// Runs a command.
 fn run(args: Args) -> Status {
     let output = Output::new(&args.common);
+    let overrides = Overrides { set: args.common.set.clone(), horizon: args.common.horizon };
+    if let Some(name) = repeated(&overrides.set) {
+        return output.fail(usage(format!("`--set {name}=…` is given twice")));
+    }
     match args.command {
+        Command::Check { missions } => check::check(&missions, &overrides, &output),
         Command::New { name } => new::new(&name, &output),
     }
+}
+
+/// A parameter that is set twice.
+fn repeated(set: &[(String, String)]) -> Option<&str> {
+    set.iter().enumerate().find(|(i, s)| set[..*i].iter().any(|t| t.0 == s.0)).map(|(_, s)| s.0.as_str())
 }
 
 /// Help and version, or what is wrong with the usage.

@@ -127,6 +127,11 @@ pub fn plain_error(code: &'static str, message: impl Into<String>) -> Diagnostic
     Diagnostic { labels: Vec::new(), ..Diagnostic::error(code, message, Span::default(), "") }
 }
 
+/// `1 error`, `2 errors`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 fn colors_by_default() -> bool {
     let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
     io::stderr().is_terminal() && !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")

@@ -1,0 +1,96 @@
+//! `dosmc check`: diagnostics, and nothing else.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::output::{Output, counted};
+use super::{Status, mission};
+use crate::diag::json::{JsonDiagnostic, to_json};
+use crate::diag::{Diagnostic, Severity};
+use crate::driver::Overrides;
+use crate::source::SourceFile;
+
+/// What `check --json` prints.
+#[derive(Serialize)]
+struct JsonCheck {
+    /// `ok` or `error`.
+    status: &'static str,
+    errors: usize,
+    warnings: usize,
+    files: Vec<JsonFile>,
+    diagnostics: Vec<JsonDiagnostic>,
+}
+
+/// What came of one file.
+#[derive(Serialize)]
+struct JsonFile {
+    file: String,
+    /// `ok` or `error`.
+    status: &'static str,
+}
+
+/// A mission that was looked at.
+struct Looked {
+    source: SourceFile,
+    diagnostics: Vec<Diagnostic>,
+    status: Status,
+}
+
+/// Checks all missions; the worst status is the command's.
+pub fn check(missions: &[PathBuf], overrides: &Overrides, output: &Output) -> Status {
+    if missions.iter().filter(|m| m.as_path() == Path::new("-")).count() > 1 {
+        return output.fail(super::usage("standard input can be read only once, but `-` stands there twice"));
+    }
+    let all: Vec<Looked> = missions.iter().map(|path| look(path, overrides)).collect();
+    for one in &all {
+        output.diagnostics(&one.source, &one.diagnostics);
+    }
+    let said = output.say(&summary(&all)).and_then(|()| output.json(&json(&all)));
+    // An unreadable file weighs more than a wrong one: the command could not do its work.
+    let worst = [Status::Usage, Status::Mission].into_iter().find(|s| all.iter().any(|one| one.status == *s));
+    said.err().or(worst).unwrap_or(Status::Done)
+}
+
+fn look(path: &Path, overrides: &Overrides) -> Looked {
+    match mission::open(path) {
+        Err(unopened) => {
+            let mission::Unopened { source, problem, status } = *unopened;
+            Looked { source, diagnostics: vec![problem], status }
+        }
+        Ok(source) => {
+            let (loaded, diagnostics) = mission::load(&source, overrides);
+            let status = if loaded.is_some() { Status::Done } else { Status::Mission };
+            Looked { source, diagnostics, status }
+        }
+    }
+}
+
+fn count(all: &[Looked], severity: Severity) -> usize {
+    all.iter().flat_map(|one| &one.diagnostics).filter(|d| d.severity == severity).count()
+}
+
+fn summary(all: &[Looked]) -> String {
+    let (errors, warnings) = (count(all, Severity::Error), count(all, Severity::Warning));
+    let missions = counted(all.len(), "mission");
+    let warned = if warnings > 0 { format!(", {}", counted(warnings, "warning")) } else { String::new() };
+    if errors > 0 {
+        format!("{missions}: {}{warned}", counted(errors, "error"))
+    } else {
+        format!("{missions}: no errors{warned}")
+    }
+}
+
+fn json(all: &[Looked]) -> JsonCheck {
+    let status = |ok: bool| if ok { "ok" } else { "error" };
+    JsonCheck {
+        status: status(all.iter().all(|one| one.status == Status::Done)),
+        errors: count(all, Severity::Error),
+        warnings: count(all, Severity::Warning),
+        files: all
+            .iter()
+            .map(|one| JsonFile { file: one.source.name.clone(), status: status(one.status == Status::Done) })
+            .collect(),
+        diagnostics: all.iter().flat_map(|one| to_json(&one.source, &one.diagnostics)).collect(),
+    }
+}
