@@ -7,7 +7,11 @@
 mod formula;
 mod model;
 mod problem;
+#[cfg(test)]
+pub(crate) mod sample;
 mod spans;
+mod text;
+mod validate;
 
 pub use formula::{Atom, Comparison, Formula, FormulaId, Formulas, Relation};
 pub use model::{Enclosure, Interval, Model, ModelId, Signal};
@@ -16,3 +20,4 @@ pub use problem::{
     Range, Region, RegionId, Robot, RobotId, Shape,
 };
 pub use spans::{ModelSpans, Spans};
+pub use validate::{Violation, validate};
