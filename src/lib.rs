@@ -50,6 +50,7 @@
 //!
 //! `tests/tidy.rs` holds the table of who may name whom and fails when it is no longer true.
 
+pub mod abstraction;
 pub mod back;
 pub mod cli;
 pub mod diag;

@@ -3,6 +3,7 @@
 //! [`Polytope`] is the workhorse: built from boxes, corners, points or half-spaces, always with an
 //! interior and in both forms. [`Zonotope`] has the supports of tubes, rounded outwards.
 
+mod distance;
 mod elimination;
 mod half_spaces;
 mod hull;

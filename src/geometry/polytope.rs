@@ -183,6 +183,26 @@ impl Polytope {
         }
     }
 
+    /// The Minkowski sum with the box of these half-widths, none negative; zero ones add nothing.
+    pub fn widened(&self, half_widths: &[Rational]) -> Polytope {
+        let mut widened = self.clone();
+        for (axis, half_width) in half_widths.iter().enumerate().filter(|(_, h)| !h.is_zero()) {
+            let mut step = vec![Rational::ZERO; self.dimension()];
+            step[axis] = half_width.clone();
+            let back: Vec<Rational> = step.iter().map(|x| -x).collect();
+            let mut points = widened.translate(&step).vertices;
+            points.extend(widened.translate(&back).vertices);
+            // The hull of more than a polytope with an interior has one, too.
+            widened = Polytope::hull(&points).unwrap_or(widened);
+        }
+        widened
+    }
+
+    /// The squared Euclidean distance of a point from the polytope, exactly; 0 inside.
+    pub fn squared_distance(&self, point: &[Rational]) -> Rational {
+        super::distance::squared_distance(self, point)
+    }
+
     /// Whether this polytope lies in the closed `outer` one.
     pub fn is_inside(&self, outer: &Polytope) -> bool {
         self.vertices.iter().all(|v| outer.contains(v))

@@ -1,0 +1,232 @@
+//! What can be told before any search: starts with their tubes, and regions that the tube empties.
+//!
+//! All comparisons are exact, on the tube's doubles as they stand, with z_0 = x̄_0: what passes
+//! here passes the checker's tests of step 0.
+
+use crate::diag::{Diagnostic, Diagnostics, Reported};
+use crate::entity::EntityId;
+use crate::exact::Rational;
+use crate::geometry::Polytope;
+use crate::ir::{Blocker, BlockerKind, Model, Problem, Robot, RobotId, Spans};
+use crate::source::Span;
+use crate::tube::Tubes;
+
+use super::ErrorSet;
+use super::error_set::meets;
+use super::narrow_region;
+
+/// Reports what is wrong at step 0 and which goals the tubes make impossible by themselves.
+///
+/// # Errors
+/// [`Reported`] when there was anything to report.
+pub fn inspect(
+    problem: &Problem,
+    spans: &Spans,
+    tubes: &Tubes,
+    diagnostics: &mut Diagnostics,
+) -> Result<(), Reported> {
+    let mut found: Vec<Diagnostic> = Vec::new();
+    let sets: Vec<Option<ErrorSet>> = problem
+        .models
+        .iter()
+        .map(|(id, model)| tubes.get(id).and_then(|t| ErrorSet::new(model, t)))
+        .collect();
+    let starts: Vec<Option<Start<'_>>> =
+        problem.robots.iter().map(|(id, robot)| Start::new(problem, spans, &sets, id, robot)).collect();
+    for start in starts.iter().flatten() {
+        start.inspect(problem, spans, &mut found);
+    }
+    inspect_pairs(problem, spans, &starts, &mut found);
+    narrow_region::inspect(problem, spans, &sets, &mut found);
+    let reported = found.into_iter().map(|d| diagnostics.report(d)).last();
+    reported.map_or(Ok(()), Err)
+}
+
+/// A robot where it starts, with everything that it can be by its error.
+struct Start<'a> {
+    robot: &'a Robot,
+    model: &'a Model,
+    errors: &'a ErrorSet,
+    span: Span,
+    /// x̄_0 ⊕ Ω, position part.
+    positions: Polytope,
+}
+
+impl<'a> Start<'a> {
+    fn new(
+        problem: &'a Problem,
+        spans: &Spans,
+        sets: &'a [Option<ErrorSet>],
+        id: RobotId,
+        robot: &'a Robot,
+    ) -> Option<Start<'a>> {
+        let errors = sets.get(robot.model.index())?.as_ref()?;
+        let model = problem.models.get(robot.model)?;
+        let at: Vec<Rational> = model.position.iter().map(|&i| robot.start[i].clone()).collect();
+        let span = spans.robots.get(id.index()).copied().unwrap_or_default();
+        Some(Start { robot, model, errors, span, positions: errors.positions().translate(&at) })
+    }
+
+    fn inspect(&self, problem: &Problem, spans: &Spans, found: &mut Vec<Diagnostic>) {
+        if !self.positions.is_inside(&problem.workspace) {
+            found.push(self.outside_workspace(spans.workspace));
+        }
+        self.inspect_bounds(spans, found);
+        for (id, blocker) in problem.blockers.iter() {
+            if blocker.shape.pieces.iter().any(|piece| meets(&self.positions, piece)) {
+                let span = spans.blockers.get(id.index()).copied().unwrap_or_default();
+                found.push(self.in_blocker(blocker, span));
+            }
+        }
+    }
+
+    /// 𝒳's bounds; those that involve inputs are the plan's business.
+    fn inspect_bounds(&self, spans: &Spans, found: &mut Vec<Diagnostic>) {
+        let n = self.model.n();
+        for (i, bound) in self.model.state_bounds.iter().enumerate() {
+            let Some(bound) = bound else { continue };
+            let mut direction = vec![Rational::ZERO; n];
+            direction[i] = Rational::ONE;
+            let above = &self.robot.start[i] + self.errors.support(&direction);
+            direction[i] = Rational::from(-1);
+            let below = &self.robot.start[i] - self.errors.support(&direction);
+            if above > bound.hi || below < bound.lo {
+                found.push(self.outside_bound(spans, i, &above, &below));
+            }
+        }
+        for row in &self.model.mixed_bounds {
+            let (states, inputs) = row.normal.split_at(n);
+            let value = crate::exact::dot(states, &self.robot.start) + self.errors.support(states);
+            if inputs.iter().all(Rational::is_zero) && value > row.offset {
+                found.push(self.outside_general_bound());
+            }
+        }
+    }
+
+    /// `±0.3 m, ±0.3 m`
+    fn widths(&self) -> String {
+        let width = |axis: usize| format!("±{} m", short(&self.errors.half_width(axis)));
+        (0..self.positions.dimension()).map(width).collect::<Vec<_>>().join(", ")
+    }
+
+    fn outside_workspace(&self, workspace: Span) -> Diagnostic {
+        let name = &self.robot.name;
+        Diagnostic::error(
+            "dosm::abstraction::start_outside_workspace",
+            format!("`{name}` may be outside the workspace at its start"),
+            self.span,
+            format!("with its tube ({}) it reaches over the edge", self.widths()),
+        )
+        .with_label(workspace, "the workspace")
+        .with_help(format!(
+            "start `{name}` further inside, or reduce the disturbance of `{}`",
+            self.model.name
+        ))
+    }
+
+    fn outside_bound(&self, spans: &Spans, state: usize, above: &Rational, below: &Rational) -> Diagnostic {
+        let name = &self.model.states[state].name;
+        let bound =
+            spans.models.get(self.robot.model.index()).and_then(|m| m.state_bounds.get(state)?.as_ref());
+        let diagnostic = Diagnostic::error(
+            "dosm::abstraction::start_outside_bound",
+            format!("`{}` may break the bound of `{name}` at its start", self.robot.name),
+            self.span,
+            format!("with the tube, `{name}` lies anywhere from {} to {}", short(below), short(above)),
+        );
+        let diagnostic = match bound {
+            Some(span) => diagnostic.with_label(*span, "the bound"),
+            None => diagnostic,
+        };
+        diagnostic.with_help("start further inside the bound, or reduce the disturbance")
+    }
+
+    fn outside_general_bound(&self) -> Diagnostic {
+        Diagnostic::error(
+            "dosm::abstraction::start_outside_bound",
+            format!("`{}` may break a bound of `{}` at its start", self.robot.name, self.model.name),
+            self.span,
+            "with its tube, this start doesn't satisfy each inequality of `bound where`",
+        )
+        .with_help("start further inside the bounds, or reduce the disturbance")
+    }
+
+    fn in_blocker(&self, blocker: &Blocker, span: Span) -> Diagnostic {
+        let (code, what) = match blocker.kind {
+            BlockerKind::Jammer => ("dosm::abstraction::start_in_jammer", "jammer"),
+            _ => ("dosm::abstraction::start_in_obstacle", "obstacle"),
+        };
+        Diagnostic::error(
+            code,
+            format!("`{}` may be in the {what} `{}` at its start", self.robot.name, blocker.name),
+            self.span,
+            format!("with its tube ({}) it touches `{}`", self.widths(), blocker.name),
+        )
+        .with_label(span, format!("the {what}"))
+        .with_help(format!("start `{}` further away from `{}`", self.robot.name, blocker.name))
+    }
+
+    /// The greatest gap along any axis that is certain between two robots; negative when none is.
+    fn certain_gap(&self, other: &Start<'_>) -> Rational {
+        let (lo, hi) = self.positions.bounding_box();
+        let (other_lo, other_hi) = other.positions.bounding_box();
+        let along = |i: usize| {
+            let (left, right) = (&lo[i] - &other_hi[i], &other_lo[i] - &hi[i]);
+            Rational::max_of(&left, &right).clone()
+        };
+        (0..lo.len()).map(along).max().unwrap_or(Rational::ZERO)
+    }
+}
+
+fn inspect_pairs(
+    problem: &Problem,
+    spans: &Spans,
+    starts: &[Option<Start<'_>>],
+    found: &mut Vec<Diagnostic>,
+) {
+    let Some(separation) = &problem.separation else { return };
+    let starts: Vec<&Start<'_>> = starts.iter().flatten().collect();
+    for (i, first) in starts.iter().enumerate() {
+        for second in &starts[i + 1..] {
+            let gap = first.certain_gap(second);
+            if gap < *separation {
+                found.push(too_close(first, second, &gap, separation, spans.separation));
+            }
+        }
+    }
+}
+
+fn too_close(
+    first: &Start<'_>,
+    second: &Start<'_>,
+    gap: &Rational,
+    separation: &Rational,
+    span: Option<Span>,
+) -> Diagnostic {
+    let certain = if gap.is_negative() { "nothing".to_string() } else { format!("{} m", short(gap)) };
+    let diagnostic = Diagnostic::error(
+        "dosm::abstraction::starts_too_close",
+        format!(
+            "`{}` and `{}` start closer together than the separation",
+            first.robot.name, second.robot.name
+        ),
+        second.span,
+        format!("with both tubes, {certain} is certain along any axis"),
+    )
+    .with_label(first.span, format!("the start of `{}`", first.robot.name));
+    let diagnostic = match span {
+        Some(span) => diagnostic.with_label(span, format!("{} m are asked for", short(separation))),
+        None => diagnostic,
+    };
+    let missing = short(&(separation - gap));
+    diagnostic.with_help(format!("move them apart by another {missing} m along one axis"))
+}
+
+/// A number for people: four digits or so.
+pub(super) fn short(x: &Rational) -> String {
+    let rounded = (x * Rational::from(10_000)).ceil() / Rational::from(10_000);
+    if x.is_integer() || rounded.is_zero() { format!("{}", x.to_f64()) } else { rounded.to_string() }
+}
+
+#[cfg(test)]
+mod tests;
