@@ -9,7 +9,7 @@ use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use dashu_base::{Gcd, Signed, UnsignedAbs};
+use dashu_base::{BitTest, Gcd, Signed, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
@@ -127,6 +127,16 @@ impl Rational {
     /// The quotient; `None` when `divisor` is 0.
     pub fn checked_div(&self, divisor: &Rational) -> Option<Rational> {
         (!divisor.is_zero()).then(|| self / divisor)
+    }
+
+    /// The number of bits of numerator and denominator together: what computing with it costs.
+    pub fn bits(&self) -> usize {
+        self.0.numerator().bit_len() + self.0.denominator().bit_len()
+    }
+
+    /// A whole number e with 2^(e−1) < |x| < 2^(e+1); meaningless for 0.
+    pub fn binary_magnitude(&self) -> i64 {
+        self.0.numerator().bit_len() as i64 - self.0.denominator().bit_len() as i64
     }
 
     /// Numerator and denominator as decimal text, in lowest terms with a positive denominator.

@@ -60,6 +60,7 @@ pub mod exact;
 pub mod geometry;
 pub mod ir;
 pub mod plan;
+pub mod quantity;
 pub mod source;
 pub mod syntax;
 pub mod tube;
