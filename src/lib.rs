@@ -52,6 +52,7 @@
 
 pub mod abstraction;
 pub mod back;
+pub mod check;
 pub mod cli;
 pub mod diag;
 pub mod driver;
@@ -59,6 +60,7 @@ pub mod entity;
 pub mod exact;
 pub mod geometry;
 pub mod ir;
+pub mod lower;
 pub mod plan;
 pub mod quantity;
 pub mod source;

@@ -22,7 +22,7 @@ mod sums;
 pub mod typed;
 mod windows;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use sha2::{Digest, Sha256};
 
@@ -76,8 +76,6 @@ struct Checker<'a> {
     source: &'a SourceFile,
     diagnostics: &'a mut Diagnostics,
     names: Names,
-    /// Names whose declarations the parser could not read.
-    broken: BTreeSet<String>,
     /// Indexed as the file's items.
     entries: Vec<Entry>,
     dimension: usize,
@@ -94,6 +92,8 @@ struct Checker<'a> {
     formulas: Table<typed::FormulaId, typed::Formula>,
     /// What formulas took so far, terms of sums included.
     formula_size: usize,
+    /// The proof that formulas were said to take too much.
+    overgrown: Option<Reported>,
     goals: Vec<typed::Goal>,
 }
 
@@ -104,7 +104,6 @@ impl<'a> Checker<'a> {
             source,
             diagnostics,
             names: Names::default(),
-            broken: file.broken.iter().map(|name| name.text.clone()).collect(),
             entries: file.items.iter().map(|_| Entry::Pending).collect(),
             dimension: 2,
             workspace: None,
@@ -117,6 +116,7 @@ impl<'a> Checker<'a> {
             members: 0,
             formulas: Table::new(),
             formula_size: 0,
+            overgrown: None,
             goals: Vec::new(),
         }
     }
@@ -185,7 +185,7 @@ impl<'a> Checker<'a> {
         let Some(symbol) = self.names.get(&name.text) else {
             let near = self.names.nearest(&name.text, kinds).map(str::to_string);
             let message = messages::unknown_name(name, wanted, near.as_deref());
-            if self.broken.contains(&name.text) {
+            if self.file.has_broken(&name.text) {
                 return Err(self.reported(|| message));
             }
             return Err(self.report(message));

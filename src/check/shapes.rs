@@ -39,7 +39,7 @@ impl Checker<'_> {
             first = Some(item);
             self.workspace = Some(self.workspace_shape(shape, item.span));
         }
-        if first.is_none() && !self.has_broken_declarations() {
+        if first.is_none() && !file.has_broken_keyword("workspace") {
             self.report(messages::missing_workspace(file.span));
         }
     }

@@ -12,4 +12,4 @@ mod unit;
 pub use dimension::Dimension;
 pub use elementary::{cos, pi, power, sin, sqrt};
 pub use limits::{MAX_BITS, in_range};
-pub use unit::{Unit, UnitError};
+pub use unit::{SYMBOLS, Unit, UnitError};

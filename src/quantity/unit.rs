@@ -25,7 +25,7 @@ pub enum UnitError {
 }
 
 /// All unit symbols, for suggestions.
-pub(crate) const SYMBOLS: [&str; 12] =
+pub const SYMBOLS: [&str; 12] =
     ["m", "cm", "mm", "km", "s", "ms", "min", "rad", "deg", "kg", "g", "N"];
 
 impl Unit {

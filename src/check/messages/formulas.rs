@@ -1,0 +1,75 @@
+//! What is wrong with formulas.
+
+use crate::diag::Diagnostic;
+use crate::exact::Rational;
+use crate::quantity::Dimension;
+use crate::source::Span;
+use crate::syntax::ast::{Name, Reference};
+
+pub(in crate::check) fn wrong_window_dimension(span: Span, found: Dimension) -> Diagnostic {
+    let message = format!("a window is in steps or in times, not in {found}");
+    Diagnostic::error("dosm::check::wrong_dimension", message, span, found.describe())
+}
+
+pub(in crate::check) fn mixed_window(span: Span) -> Diagnostic {
+    let message = "a window is in steps or in times, not in both";
+    Diagnostic::error("dosm::check::mixed_window", message, span, "a step and a time")
+}
+
+pub(in crate::check) fn negative_window(span: Span, number: &Rational) -> Diagnostic {
+    let message = format!("a window looks ahead: {number} lies in the past");
+    Diagnostic::error("dosm::check::bad_window", message, span, "below 0")
+}
+
+pub(in crate::check) fn reversed_window(span: Span, m: &Rational, n: &Rational) -> Diagnostic {
+    let message = format!("the window ends at step {n} before it begins at step {m}");
+    Diagnostic::error("dosm::check::bad_window", message, span, "the wrong way round")
+        .with_help(format!("write `[{n}, {m}]`"))
+}
+
+pub(in crate::check) fn long_window(span: Span, most: i64) -> Diagnostic {
+    let message = format!("the window reaches beyond {most} steps");
+    Diagnostic::error("dosm::check::bad_window", message, span, "too long")
+}
+
+/// Names the windows of whole steps around the one that was written.
+pub(in crate::check) fn window_between_steps(
+    span: Span,
+    (m, n): (&Rational, &Rational),
+    step: &Rational,
+) -> Diagnostic {
+    let message = format!("the window's times are no whole numbers of steps of {step} s");
+    let time = |steps: Rational| if steps.is_zero() { "0 s".into() } else { format!("{} s", steps * step) };
+    let window = |from: Rational, to: Rational| format!("`[{}, {}]`", time(from), time(to));
+    let inner = (m.ceil(), n.floor());
+    let outer = window(m.floor(), n.ceil());
+    let help = if inner.0 <= inner.1 {
+        format!("the nearest ones that are: {} inside, {outer} around", window(inner.0, inner.1))
+    } else {
+        format!("the nearest one that is: {outer}")
+    };
+    let label = format!("steps {m} to {n}");
+    Diagnostic::error("dosm::check::window_between_steps", message, span, label).with_help(help)
+}
+
+pub(in crate::check) fn count_of_another(variable: &Name, member: &Reference) -> Diagnostic {
+    let message =
+        format!("the count runs over `{}`, but looks at `{}`", variable.text, member.name.text);
+    Diagnostic::error("dosm::check::count_of_another", message, member.span, format!("`{}`?", variable.text))
+        .with_label(variable.span, "the counted variable")
+}
+
+pub(in crate::check) fn formula_too_large(span: Span, most: usize) -> Diagnostic {
+    let message = format!("the formulas have more than {most} parts once quantifiers are written out");
+    Diagnostic::error("dosm::check::formula_too_large", message, span, "too large from here on")
+}
+
+pub(in crate::check) fn false_goal(name: &str, span: Span) -> Diagnostic {
+    let message = format!("the goal `{name}` can never hold");
+    Diagnostic::error("dosm::check::false_goal", message, span, "contradicts itself")
+}
+
+pub(in crate::check) fn trivial_goal(name: &str, span: Span) -> Diagnostic {
+    let message = format!("the goal `{name}` always holds");
+    Diagnostic::warning("dosm::check::trivial_goal", message, span, "asks for nothing")
+}

@@ -1,0 +1,51 @@
+//! What is wrong with the mission as a whole.
+
+use crate::check::names::nearest;
+use crate::diag::Diagnostic;
+use crate::source::Span;
+use crate::syntax::ast::{Name, Number};
+
+pub(in crate::check) fn missing_edition(span: Span) -> Diagnostic {
+    let start = Span { start: span.start, end: span.start };
+    Diagnostic::error("dosm::check::missing_edition", "the mission does not say its edition", start, "missing")
+        .with_help("begin with `dosm 1`")
+}
+
+pub(in crate::check) fn unknown_edition(number: &Number) -> Diagnostic {
+    let message = format!("there is no edition {} of the language", number.value);
+    Diagnostic::error("dosm::check::unknown_edition", message, number.span, "this dosmc knows edition 1")
+}
+
+pub(in crate::check) fn missing_robot(span: Span) -> Diagnostic {
+    let end = Span { start: span.end, end: span.end };
+    Diagnostic::error("dosm::check::missing_robot", "the mission has no robot", end, "missing")
+        .with_help("add one, such as `robot R1: Rover at (4.5, 1)`")
+}
+
+pub(in crate::check) fn missing_base(span: Span) -> Diagnostic {
+    let message = "the mission has no base that the robots could reach";
+    Diagnostic::error("dosm::check::missing_base", message, span, "must reach a base at every step")
+        .with_help("add one, such as `base B1 at (1, 1)`, or write `connectivity none`")
+}
+
+pub(in crate::check) fn bad_horizon(from: Span, to: Span, a: i64, b: i64, most: i64) -> Diagnostic {
+    let message = format!("the horizon {a}..{b} is none: 1 ≤ A ≤ B ≤ {most}");
+    let help = if b < a && b >= 1 { Some(format!("write `horizon {b}..{a}`")) } else { None };
+    let diagnostic = Diagnostic::error("dosm::check::bad_horizon", message, from.to(to), "no lengths to try");
+    Diagnostic { help, ..diagnostic }
+}
+
+pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
+    let message = format!("a path to a base has at least one link, not {hops}");
+    let message = if hops < 1 { message } else { format!("{hops} links are too many") };
+    Diagnostic::error("dosm::check::bad_hops", message, span, "not a number of links")
+}
+
+pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {
+    let message = format!("nothing called `{}` can be minimised", word.text);
+    let diagnostic = Diagnostic::error("dosm::check::unknown_objective", message, word.span, "not an objective");
+    match nearest(&word.text, ["effort", "length"].into_iter()) {
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        None => diagnostic.with_help("`effort` or `length`"),
+    }
+}
