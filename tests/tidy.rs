@@ -24,7 +24,8 @@ const MAY_NAME: [(&str, &[&str]); 20] = [
     ("ir", &["geometry"]),
     ("syntax", &[]),
     ("typed", &["syntax", "geometry", "ir"]),
-    ("check", &["syntax", "typed", "geometry", "ir"]),
+    // `lower` for its normal form, in which goals that say nothing are seen.
+    ("check", &["syntax", "typed", "geometry", "ir", "lower"]),
     ("lower", &["typed", "check", "geometry", "ir"]),
     ("tube", &["ir", "geometry"]),
     ("abstraction", &["ir", "geometry", "tube"]),

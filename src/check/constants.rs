@@ -6,7 +6,7 @@ use crate::check::order::dependency_order;
 use crate::check::{Checker, Entry, messages};
 use crate::diag::{Diagnostics, Reported};
 use crate::source::{SourceFile, Span};
-use crate::syntax::ast::{Expr, ItemKind, Name};
+use crate::syntax::ast::{Expr, File, ItemKind, Name};
 
 /// The value of a `param` or a `let`.
 #[derive(Clone, PartialEq, Debug)]
@@ -106,18 +106,20 @@ impl Checker<'_> {
 
     /// Parses and evaluates an assignment's text, whose own places mean nothing in the mission.
     fn assigned_value(&mut self, name: &Name, text: &str) -> Result<Value, Reported> {
+        let expr = match crate::syntax::parse_expression(text) {
+            Ok(expr) => expr,
+            Err(error) => return Err(self.report(messages::set_invalid(name, text, &error.message))),
+        };
         let source = SourceFile::new("--set", text);
+        let file = File {
+            doc: None,
+            items: Vec::new(),
+            stray_docs: Vec::new(),
+            broken: Vec::new(),
+            span: Span::new(0, text.len()),
+        };
         let mut inner = Diagnostics::new();
-        let value = crate::syntax::parse_expression(&source, &mut inner).and_then(|expr| {
-            let file = crate::syntax::ast::File {
-                doc: None,
-                items: Vec::new(),
-                stray_docs: Vec::new(),
-                broken: Vec::new(),
-                span: Span::new(0, text.len()),
-            };
-            Checker::new(&file, &source, &mut inner).evaluate(&expr, &Scope::default())
-        });
+        let value = Checker::new(&file, &source, &mut inner).evaluate(&expr, &Scope::default());
         value.map_err(|_| {
             let reason = inner.iter().next().map_or("it is no expression", |d| d.message.as_str());
             self.report(messages::set_invalid(name, text, reason))

@@ -51,7 +51,12 @@ impl Checker<'_> {
         }
     }
 
-    fn model(&mut self, name: &Name, list: &[DynamicsItem], doc: String) -> Result<typed::Dynamics, Reported> {
+    fn model(
+        &mut self,
+        name: &Name,
+        list: &[DynamicsItem],
+        doc: String,
+    ) -> Result<typed::Dynamics, Reported> {
         let sorted = self.sort_items(list);
         let (items, complete) = sorted;
         let step = self.step(name, &items);
@@ -235,7 +240,8 @@ impl Checker<'_> {
                 return Err(self.report(messages::unknown_signal(name, "state", states.iter())));
             };
             if !states[index].dimension.agrees(Dimension::LENGTH) {
-                let message = messages::wrong_dimension(name.span, states[index].dimension, Dimension::LENGTH);
+                let message =
+                    messages::wrong_dimension(name.span, states[index].dimension, Dimension::LENGTH);
                 return Err(self.report(message));
             }
             if position.contains(&index) {

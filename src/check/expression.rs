@@ -173,11 +173,7 @@ impl Checker<'_> {
     }
 
     /// The rows of a table: a literal one, with a unit or not, or the name of one.
-    pub(super) fn table(
-        &mut self,
-        expr: &Expr,
-        scope: &Scope,
-    ) -> Result<Vec<Vec<(Value, Span)>>, Reported> {
+    pub(super) fn table(&mut self, expr: &Expr, scope: &Scope) -> Result<Vec<Vec<(Value, Span)>>, Reported> {
         match &expr.kind {
             ExprKind::Table(rows) => self.table_rows(rows, scope, expr.span),
             ExprKind::Parenthesised(inner) => self.table(inner, scope),
@@ -475,9 +471,7 @@ impl Checker<'_> {
                 };
                 match quantity::sqrt(&first.number) {
                     Some(root) => Ok(Value::constant(root, half)),
-                    None => {
-                        Err(self.report(messages::outside_domain(span, "a negative number has no root")))
-                    }
+                    None => Err(self.report(messages::outside_domain(span, "a negative number has no root"))),
                 }
             }
             _ => {

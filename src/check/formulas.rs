@@ -94,12 +94,26 @@ impl Checker<'_> {
             FormulaKind::QuantifiedRobot { universal, variable, set, body } => {
                 let members = self.robot_members(variable, set, scope);
                 let universal = *universal;
-                tasks.push(Task::Quantify(Quantifier { formula, universal, variable, body, members, next: 0 }));
+                tasks.push(Task::Quantify(Quantifier {
+                    formula,
+                    universal,
+                    variable,
+                    body,
+                    members,
+                    next: 0,
+                }));
             }
             FormulaKind::QuantifiedIndex { universal, range, body } => {
                 let members = self.index_members(range, scope);
                 let (universal, variable) = (*universal, &range.variable);
-                tasks.push(Task::Quantify(Quantifier { formula, universal, variable, body, members, next: 0 }));
+                tasks.push(Task::Quantify(Quantifier {
+                    formula,
+                    universal,
+                    variable,
+                    body,
+                    members,
+                    next: 0,
+                }));
             }
         }
     }

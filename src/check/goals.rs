@@ -4,6 +4,7 @@ use crate::check::formulas::mentioned;
 use crate::check::order::dependency_order;
 use crate::check::{Checker, Entry, messages, typed};
 use crate::syntax::ast::{Formula, ItemKind, Name};
+use crate::{ir, lower};
 
 impl Checker<'_> {
     /// All defined formulas, in the order in which they need each other, and then the goals.
@@ -52,5 +53,16 @@ impl Checker<'_> {
         }
     }
 
-    fn look_for_vacuous_goals(&mut self) {}
+    /// Goals that constants and propositional reasoning alone decide.
+    fn look_for_vacuous_goals(&mut self) {
+        let roots: Vec<typed::FormulaId> = self.goals.iter().map(|goal| goal.formula).collect();
+        let (formulas, roots) = lower::normalise(&self.formulas, &roots);
+        for (goal, root) in self.goals.iter().zip(roots) {
+            match formulas[root] {
+                ir::Formula::True => self.diagnostics.push(messages::trivial_goal(&goal.name, goal.span)),
+                ir::Formula::False => self.diagnostics.push(messages::false_goal(&goal.name, goal.span)),
+                _ => {}
+            }
+        }
+    }
 }

@@ -19,6 +19,8 @@ mod robots;
 mod settings;
 mod shapes;
 mod sums;
+#[cfg(test)]
+mod tests;
 pub mod typed;
 mod windows;
 
@@ -227,8 +229,7 @@ impl<'a> Checker<'a> {
             .iter()
             .filter(|(_, symbol)| !symbol.used)
             .filter(|(_, symbol)| {
-                let kinds =
-                    [Kind::Param, Kind::Let, Kind::Region, Kind::Dynamics, Kind::Team, Kind::Define];
+                let kinds = [Kind::Param, Kind::Let, Kind::Region, Kind::Dynamics, Kind::Team, Kind::Define];
                 kinds.contains(&symbol.kind)
             })
             .map(|(name, symbol)| messages::unused(name, symbol))

@@ -69,7 +69,8 @@ mod tests {
 
     #[test]
     fn a_long_chain_needs_no_stack() {
-        let needs: Vec<Vec<usize>> = (0..100_000).map(|i| if i + 1 < 100_000 { vec![i + 1] } else { vec![] }).collect();
+        let needs: Vec<Vec<usize>> =
+            (0..100_000).map(|i| if i + 1 < 100_000 { vec![i + 1] } else { vec![] }).collect();
         assert_eq!(dependency_order(&needs).0[0], 99_999);
     }
 }

@@ -68,7 +68,12 @@ impl Checker<'_> {
         }
     }
 
-    fn start(&mut self, model: typed::DynamicsId, at: &State, scope: &Scope) -> Result<Vec<Rational>, Reported> {
+    fn start(
+        &mut self,
+        model: typed::DynamicsId,
+        at: &State,
+        scope: &Scope,
+    ) -> Result<Vec<Rational>, Reported> {
         let states = self.dynamics[model].states.clone();
         match at {
             State::Position(point) => {
@@ -106,7 +111,8 @@ impl Checker<'_> {
                 Err(reported) => failed = Some(reported),
             }
         }
-        let values = start.into_iter().map(|entry| entry.map_or(Rational::ZERO, |(value, _)| value)).collect();
+        let values =
+            start.into_iter().map(|entry| entry.map_or(Rational::ZERO, |(value, _)| value)).collect();
         failed.map_or(Ok(values), Err)
     }
 
@@ -158,7 +164,9 @@ impl Checker<'_> {
         }
         let item = self.resolve(&reference.name, kinds, "robot", scope)?;
         let family = match &self.entries[item] {
-            Entry::Team(Ok(_)) if !plain => return Err(self.report(messages::wrong_member_indices(reference, 0))),
+            Entry::Team(Ok(_)) if !plain => {
+                return Err(self.report(messages::wrong_member_indices(reference, 0)));
+            }
             Entry::Team(team) => return team.clone(),
             Entry::Family(family) => family.clone()?,
             _ => return Err(self.reported(|| messages::unknown_name(&reference.name, "robot", None))),

@@ -104,7 +104,13 @@ impl Checker<'_> {
             let shape = if failed { None } else { self.shape(shape, Role::Blocker, &member.scope).ok() };
             failed = shape.is_none();
             let (doc, span) = (doc_text(&item.doc), item.span);
-            self.blockers.push(shape.map(|shape| typed::Blocker { name: member.name, doc, kind, shape, span }));
+            self.blockers.push(shape.map(|shape| typed::Blocker {
+                name: member.name,
+                doc,
+                kind,
+                shape,
+                span,
+            }));
         }
         Ok(family)
     }
@@ -152,7 +158,12 @@ impl Checker<'_> {
         }
     }
 
-    fn points(&mut self, points: &[Point], span: Span, scope: &Scope) -> Result<Vec<Vec<Rational>>, Reported> {
+    fn points(
+        &mut self,
+        points: &[Point],
+        span: Span,
+        scope: &Scope,
+    ) -> Result<Vec<Vec<Rational>>, Reported> {
         if points.len() > MAX_PARTS {
             return Err(self.report(messages::too_many_parts(span, points.len(), MAX_PARTS)));
         }
@@ -226,7 +237,9 @@ impl Checker<'_> {
         if !size.is_positive() {
             return Err(self.report(messages::bad_radius(radius.value.span, &size)));
         }
-        if let Some((uncertainty, _)) = uncertain.zip(spread.iter().chain([&growth]).find(|s| s.is_negative())) {
+        if let Some((uncertainty, _)) =
+            uncertain.zip(spread.iter().chain([&growth]).find(|s| s.is_negative()))
+        {
             return Err(self.report(messages::negative_uncertainty(uncertainty.span)));
         }
         match norm {
@@ -262,13 +275,15 @@ impl Checker<'_> {
     ) -> Result<Polytope, Reported> {
         let mut corners = vec![center.to_vec()];
         for (axis, extent) in spread.iter().enumerate().filter(|(_, s)| !s.is_zero()) {
-            corners = corners.iter().flat_map(|c| [moved(c, axis, extent), moved(c, axis, &-extent)]).collect();
+            corners =
+                corners.iter().flat_map(|c| [moved(c, axis, extent), moved(c, axis, &-extent)]).collect();
         }
         let tips = |c: &Vec<Rational>| -> Vec<Vec<Rational>> {
             (0..center.len()).flat_map(|axis| [moved(c, axis, radius), moved(c, axis, &-radius)]).collect()
         };
         let points: Vec<Vec<Rational>> = corners.iter().flat_map(tips).collect();
-        Polytope::hull(&points).map_err(|e| self.diagnostics.report(messages::bad_points("ball", span, &[], &e)))
+        Polytope::hull(&points)
+            .map_err(|e| self.diagnostics.report(messages::bad_points("ball", span, &[], &e)))
     }
 
     fn half_spaces(
@@ -292,11 +307,16 @@ impl Checker<'_> {
     }
 
     /// An inequality over the coordinates in scope as normal · x ≤ offset.
-    pub(super) fn half_space(&mut self, inequality: &Inequality, scope: &Scope) -> Result<HalfSpace, Reported> {
+    pub(super) fn half_space(
+        &mut self,
+        inequality: &Inequality,
+        scope: &Scope,
+    ) -> Result<HalfSpace, Reported> {
         let left = self.evaluate(&inequality.left, scope)?;
         let right = self.evaluate(&inequality.right, scope)?;
         let (a, b) = (left.dimension, right.dimension);
-        let fits = a.agrees(b) || left.slopes.is_empty() && a.is_bare() || right.slopes.is_empty() && b.is_bare();
+        let fits =
+            a.agrees(b) || left.slopes.is_empty() && a.is_bare() || right.slopes.is_empty() && b.is_bare();
         if !fits {
             let pair = ((inequality.left.span, a), (inequality.right.span, b));
             return Err(self.report(messages::dimensions_disagree(pair.0, pair.1)));

@@ -157,7 +157,10 @@ mod tests {
                             plain(total, op, bound) != negated
                         });
                         let ours = evaluate(&formula, &values);
-                        assert_eq!(ours, all, "{sum:?} {op:?} {bound} negated: {negated}, {values:?}: {formula:?}");
+                        assert_eq!(
+                            ours, all,
+                            "{sum:?} {op:?} {bound} negated: {negated}, {values:?}: {formula:?}"
+                        );
                     }
                 }
             }

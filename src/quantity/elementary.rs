@@ -61,7 +61,7 @@ pub fn power(x: &Rational, y: &Rational) -> Option<Rational> {
         return Some(Rational::ONE);
     }
     let rough = y * &logarithm(x, FIRST_PRECISION + magnitude_bits(y));
-    if rough.abs() > Rational::from(MAX_BINARY_EXPONENT) {
+    if rough.abs() > MAX_BINARY_EXPONENT {
         return None;
     }
     Some(nearest(|precision| {
@@ -164,7 +164,7 @@ fn logarithm(x: &Rational, precision: u32) -> Rational {
     // The mantissa lies between 1/2 and 2; the series wants |z| ≤ 1/3, which that gives.
     if mantissa > Rational::ratio(3, 2) {
         shift += 1;
-        mantissa = mantissa * Rational::ratio(1, 2);
+        mantissa *= Rational::ratio(1, 2);
     }
     let z = (&mantissa - Rational::ONE) / (&mantissa + Rational::ONE);
     Rational::from(2) * odd_series(&z, fine, true) + Rational::from(shift) * logarithm_of_two(fine)

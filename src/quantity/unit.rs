@@ -25,8 +25,7 @@ pub enum UnitError {
 }
 
 /// All unit symbols, for suggestions.
-pub const SYMBOLS: [&str; 12] =
-    ["m", "cm", "mm", "km", "s", "ms", "min", "rad", "deg", "kg", "g", "N"];
+pub const SYMBOLS: [&str; 12] = ["m", "cm", "mm", "km", "s", "ms", "min", "rad", "deg", "kg", "g", "N"];
 
 impl Unit {
     /// The unit with its factors' symbols and exponents.

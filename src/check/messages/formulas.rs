@@ -53,8 +53,7 @@ pub(in crate::check) fn window_between_steps(
 }
 
 pub(in crate::check) fn count_of_another(variable: &Name, member: &Reference) -> Diagnostic {
-    let message =
-        format!("the count runs over `{}`, but looks at `{}`", variable.text, member.name.text);
+    let message = format!("the count runs over `{}`, but looks at `{}`", variable.text, member.name.text);
     Diagnostic::error("dosm::check::count_of_another", message, member.span, format!("`{}`?", variable.text))
         .with_label(variable.span, "the counted variable")
 }

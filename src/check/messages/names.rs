@@ -47,8 +47,12 @@ pub(in crate::check) fn duplicate_name(name: &Name, kind: Kind, first: Symbol) -
 }
 
 pub(in crate::check) fn repeated(what: &str, first: Span, second: Span) -> Diagnostic {
-    let message = format!("there may be only one {}", if what == "item" { "item of a kind".into() } else { format!("`{what}`") });
-    Diagnostic::error("dosm::check::duplicate", message, second, "the second one").with_label(first, "the first one")
+    let message = format!(
+        "there may be only one {}",
+        if what == "item" { "item of a kind".into() } else { format!("`{what}`") }
+    );
+    Diagnostic::error("dosm::check::duplicate", message, second, "the second one")
+        .with_label(first, "the first one")
 }
 
 pub(in crate::check) fn predeclared_name(name: &Name) -> Diagnostic {
@@ -64,7 +68,12 @@ pub(in crate::check) fn hidden_name(variable: &Name, symbol: Symbol) -> Diagnost
 
 pub(in crate::check) fn hidden_variable(variable: &Name) -> Diagnostic {
     let message = format!("the variable `{0}` hides another variable `{0}`", variable.text);
-    Diagnostic::warning("dosm::check::hidden_name", message, variable.span, "means this variable from here on")
+    Diagnostic::warning(
+        "dosm::check::hidden_name",
+        message,
+        variable.span,
+        "means this variable from here on",
+    )
 }
 
 pub(in crate::check) fn unused(name: &str, symbol: Symbol) -> Diagnostic {
@@ -113,7 +122,10 @@ pub(in crate::check) fn wrong_member_indices(reference: &Reference, wanted: usiz
     let message = if wanted == 0 {
         format!("`{name}` has no members to choose by an index")
     } else {
-        format!("a member of `{name}` has {wanted} ind{}, not {found}", if wanted == 1 { "ex" } else { "ices" })
+        format!(
+            "a member of `{name}` has {wanted} ind{}, not {found}",
+            if wanted == 1 { "ex" } else { "ices" }
+        )
     };
     Diagnostic::error("dosm::check::wrong_index_count", message, reference.span, "here")
 }

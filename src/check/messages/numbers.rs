@@ -118,7 +118,8 @@ pub(in crate::check) fn function_without_arguments(name: &Name) -> Diagnostic {
 }
 
 pub(in crate::check) fn wrong_argument_count(function: &Name, wanted: usize, found: usize) -> Diagnostic {
-    let message = format!("`{}` takes {wanted} argument{}, not {found}", function.text, super::plural(wanted));
+    let message =
+        format!("`{}` takes {wanted} argument{}, not {found}", function.text, super::plural(wanted));
     Diagnostic::error("dosm::check::wrong_argument_count", message, function.span, "called here")
 }
 
@@ -132,7 +133,8 @@ pub(in crate::check) fn misplaced_table(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn ragged_table(span: Span, row: usize, found: usize, wanted: usize) -> Diagnostic {
-    let message = format!("row {row} has {found} entr{}, the first has {wanted}", if found == 1 { "y" } else { "ies" });
+    let message =
+        format!("row {row} has {found} entr{}, the first has {wanted}", if found == 1 { "y" } else { "ies" });
     Diagnostic::error("dosm::check::ragged_table", message, span, "rows of different lengths")
 }
 
@@ -202,12 +204,8 @@ pub(in crate::check) fn set_wrong_dimension(
     found: Dimension,
     expected: Dimension,
 ) -> Diagnostic {
-    let message = format!(
-        "--set {}={text}: {} is needed, not {}",
-        name.text,
-        expected.describe(),
-        found.describe()
-    );
+    let message =
+        format!("--set {}={text}: {} is needed, not {}", name.text, expected.describe(), found.describe());
     Diagnostic::error("dosm::check::wrong_dimension", message, name.span, "the parameter")
 }
 

@@ -7,8 +7,13 @@ use crate::syntax::ast::{Name, Number};
 
 pub(in crate::check) fn missing_edition(span: Span) -> Diagnostic {
     let start = Span { start: span.start, end: span.start };
-    Diagnostic::error("dosm::check::missing_edition", "the mission does not say its edition", start, "missing")
-        .with_help("begin with `dosm 1`")
+    Diagnostic::error(
+        "dosm::check::missing_edition",
+        "the mission does not say its edition",
+        start,
+        "missing",
+    )
+    .with_help("begin with `dosm 1`")
 }
 
 pub(in crate::check) fn unknown_edition(number: &Number) -> Diagnostic {
@@ -43,7 +48,8 @@ pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
 
 pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {
     let message = format!("nothing called `{}` can be minimised", word.text);
-    let diagnostic = Diagnostic::error("dosm::check::unknown_objective", message, word.span, "not an objective");
+    let diagnostic =
+        Diagnostic::error("dosm::check::unknown_objective", message, word.span, "not an objective");
     match nearest(&word.text, ["effort", "length"].into_iter()) {
         Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
         None => diagnostic.with_help("`effort` or `length`"),

@@ -27,14 +27,21 @@ pub(in crate::check) fn round_workspace(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn wrong_point_dimension(span: Span, found: usize, wanted: usize) -> Diagnostic {
-    let message =
-        format!("a point with {found} coordinate{} in a workspace of {wanted} dimensions", super::plural(found));
+    let message = format!(
+        "a point with {found} coordinate{} in a workspace of {wanted} dimensions",
+        super::plural(found)
+    );
     Diagnostic::error("dosm::check::wrong_point", message, span, format!("{wanted} coordinates are needed"))
 }
 
 pub(in crate::check) fn polygon_in_space(span: Span) -> Diagnostic {
-    Diagnostic::error("dosm::check::wrong_point", "a polygon lies in the plane", span, "the workspace has 3 dimensions")
-        .with_help("use `hull` in space")
+    Diagnostic::error(
+        "dosm::check::wrong_point",
+        "a polygon lies in the plane",
+        span,
+        "the workspace has 3 dimensions",
+    )
+    .with_help("use `hull` in space")
 }
 
 pub(in crate::check) fn misplaced_uncertainty(span: Span) -> Diagnostic {
@@ -47,7 +54,12 @@ pub(in crate::check) fn uncertain_target(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn negative_uncertainty(span: Span) -> Diagnostic {
-    Diagnostic::error("dosm::check::negative_uncertainty", "an uncertainty is not negative", span, "of this ball")
+    Diagnostic::error(
+        "dosm::check::negative_uncertainty",
+        "an uncertainty is not negative",
+        span,
+        "of this ball",
+    )
 }
 
 pub(in crate::check) fn bad_radius(span: Span, radius: &Rational) -> Diagnostic {
@@ -66,7 +78,12 @@ pub(in crate::check) fn too_many_parts(span: Span, found: usize, most: usize) ->
 }
 
 pub(in crate::check) fn flat_shape(span: Span, reason: &str) -> Diagnostic {
-    Diagnostic::error("dosm::check::flat_shape", format!("the shape is flat: {reason}"), span, "has no interior")
+    Diagnostic::error(
+        "dosm::check::flat_shape",
+        format!("the shape is flat: {reason}"),
+        span,
+        "has no interior",
+    )
 }
 
 pub(in crate::check) fn box_corners_swapped(
@@ -90,7 +107,12 @@ pub(in crate::check) fn box_corners_swapped(
 }
 
 /// Why points make no polygon, hull or ball.
-pub(in crate::check) fn bad_points(shape: &str, span: Span, points: &[Point], error: &ShapeError) -> Diagnostic {
+pub(in crate::check) fn bad_points(
+    shape: &str,
+    span: Span,
+    points: &[Point],
+    error: &ShapeError,
+) -> Diagnostic {
     let at = error_point(error).and_then(|index| points.get(index)).map_or(span, |p| p.span);
     match error {
         ShapeError::NotConvex { .. } => Diagnostic::error(
