@@ -58,3 +58,78 @@ fn never_sums_to(numbers: &[i128], sum: i128) -> bool {
     }
     !sums.contains(&sum)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::entity::EntityId;
+    use crate::ir::{RegionId, RobotId};
+
+    const LABELS: [Label; 3] = [Label::In, Label::Out, Label::Unknown];
+    const RELATIONS: [Relation; 4] =
+        [Relation::Equal, Relation::NotEqual, Relation::AtLeast, Relation::AtMost];
+
+    fn atom(index: usize) -> Atom {
+        Atom { robot: RobotId::new(index), region: RegionId::new(0) }
+    }
+
+    fn holds(relation: Relation, sum: i64, bound: i64) -> bool {
+        match relation {
+            Relation::Equal => sum == bound,
+            Relation::NotEqual => sum != bound,
+            Relation::AtLeast => sum >= bound,
+            Relation::AtMost => sum <= bound,
+        }
+    }
+
+    /// Tries every assignment that the labels allow.
+    fn brute_force(comparison: &Comparison, labels: &[Label]) -> bool {
+        (0..1usize << labels.len()).all(|bits| {
+            let inside = |i: usize| bits >> i & 1 == 1;
+            let allowed = labels.iter().enumerate().all(|(i, label)| match label {
+                Label::In => inside(i),
+                Label::Out => !inside(i),
+                Label::Unknown => true,
+            });
+            let sum = comparison.terms.iter().filter(|(a, _)| inside(a.robot.index())).map(|(_, c)| c).sum();
+            !allowed || holds(comparison.relation, sum, comparison.bound)
+        })
+    }
+
+    #[test]
+    fn threat_8_comparisons_agree_with_every_assignment() {
+        let coefficients = [[1, 1, 1, 1], [1, -1, 1, -1], [2, -3, 5, 1], [2, 4, -2, 6], [3, 3, -1, -1]];
+        let mut certain = 0;
+        for (terms, relation) in coefficients.iter().flat_map(|c| RELATIONS.map(|r| (c, r))) {
+            for bound in -7..=10 {
+                let terms = terms.iter().enumerate().map(|(i, &c)| (atom(i), c)).collect();
+                let comparison = Comparison { terms, relation, bound };
+                for code in 0..81usize {
+                    let labels: Vec<Label> = (0..4).map(|i| LABELS[code / 3usize.pow(i) % 3]).collect();
+                    let found = certainly(&comparison, |atom| labels[atom.robot.index()]);
+                    assert_eq!(found, brute_force(&comparison, &labels), "{comparison:?} {labels:?}");
+                    certain += usize::from(found);
+                }
+            }
+        }
+        assert!(certain > 10_000);
+    }
+
+    #[test]
+    fn one_atom_twice_has_one_value() {
+        let twice =
+            |relation, bound| Comparison { terms: vec![(atom(0), 1), (atom(0), -1)], relation, bound };
+        assert!(certainly(&twice(Relation::Equal, 0), |_| Label::Unknown));
+        assert!(certainly(&twice(Relation::NotEqual, 1), |_| Label::Unknown));
+    }
+
+    #[test]
+    fn huge_sums_neither_overflow_nor_take_for_ever() {
+        let terms: Vec<(Atom, i64)> = (0..60).map(|i| (atom(i), i64::MAX >> (i % 20))).collect();
+        let compare = |relation, bound| Comparison { terms: terms.clone(), relation, bound };
+        assert!(certainly(&compare(Relation::AtLeast, 0), |_| Label::Unknown));
+        assert!(certainly(&compare(Relation::AtLeast, i64::MAX), |_| Label::In));
+        assert!(!certainly(&compare(Relation::NotEqual, 12_345), |_| Label::Unknown));
+        assert!(certainly(&compare(Relation::NotEqual, -1), |_| Label::Unknown));
+    }
+}

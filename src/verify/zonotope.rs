@@ -136,3 +136,59 @@ fn counter_clockwise(g: &[Rational], h: &[Rational]) -> Ordering {
         _ => (&g[1] * &h[0]).cmp(&(&g[0] * &h[1])),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row<const N: usize>(entries: [i64; N]) -> Vec<Rational> {
+        entries.map(Rational::from).to_vec()
+    }
+
+    /// The hull of all sign combinations, by its supports.
+    fn agrees(center: Vec<Rational>, generators: &[Vec<Rational>], exact: bool) {
+        let zonotope = Zonotope::new(center.clone(), generators.to_vec());
+        let sums: Vec<Vec<Rational>> = (0..1usize << generators.len())
+            .map(|bits| {
+                let signed = |i: usize, x: &Rational| if bits >> i & 1 == 1 { x.clone() } else { -x };
+                let along = |axis: usize| {
+                    generators.iter().enumerate().map(|(i, g)| signed(i, &g[axis])).sum::<Rational>()
+                };
+                (0..center.len()).map(|axis| &center[axis] + along(axis)).collect()
+            })
+            .collect();
+        for (x, y, z) in (-3..=3).flat_map(|x| (-3..=3).flat_map(move |y| (-1..=1).map(move |z| (x, y, z)))) {
+            let a = row([x, y, z])[..center.len()].to_vec();
+            let highest = |points: &[Vec<Rational>]| points.iter().map(|p| dot(&a, p)).max().unwrap();
+            assert_eq!(zonotope.support(&a), highest(&sums));
+            let cornered = highest(&zonotope.corners());
+            assert!(
+                if exact { cornered == highest(&sums) } else { cornered >= highest(&sums) },
+                "along {a:?}"
+            );
+        }
+        for axis in 0..center.len() {
+            assert_eq!(zonotope.reach(axis, 1), sums.iter().map(|p| p[axis].clone()).max().unwrap());
+            assert_eq!(zonotope.reach(axis, -1), -sums.iter().map(|p| p[axis].clone()).min().unwrap());
+        }
+    }
+
+    #[test]
+    fn supports_and_corners_are_those_of_all_sign_combinations() {
+        agrees(row([1, -2]), &[row([2, 0]), row([0, -3]), row([-1, 0])], true);
+        agrees(row([0, 0]), &[row([2, 1]), row([-1, 3]), row([0, 2]), row([-4, -2]), row([5, -1])], true);
+        agrees(row([3, 1]), &[row([1, 1]), row([0, 0])], true);
+        agrees(row([0, 7]), &[], true);
+        agrees(row([1, 2, 3]), &[row([1, 0, 0]), row([0, 0, -2]), row([0, 1, 0]), row([0, 0, 1])], true);
+        agrees(row([1, 2, 3]), &[row([1, 1, 0]), row([0, 1, -2])], false);
+    }
+
+    #[test]
+    fn a_difference_reflects_the_second() {
+        let one = Zonotope::new(row([1, 0]), [row([1, 1])]);
+        let other = Zonotope::new(row([5, 2]), [row([2, 0])]);
+        let difference = one.minus(&other);
+        assert_eq!(difference.support(&row([1, 0])), one.reach(0, 1) + other.reach(0, -1));
+        assert_eq!(difference.center, row([-4, -2]));
+    }
+}
