@@ -8,9 +8,9 @@ use dosmc::plan::{Plan, json};
 use dosmc::verify::verify;
 use serde_json::Value;
 
+use crate::cases::relay;
 use crate::sampling::{Dice, counterexample};
 use crate::scene::Scene;
-use crate::threats::relay;
 
 /// A place in the file: keys and indices from the root.
 type Path = Vec<String>;

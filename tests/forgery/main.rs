@@ -1,6 +1,9 @@
 //! Plans that hold, and forgeries of them that must not pass.
 
+mod bounds;
+mod cases;
 mod forge;
+mod links;
 mod sampling;
 mod scene;
 mod threats;
