@@ -70,31 +70,22 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// A directory that results go to, made ready before the work that fills it.
+/// A directory that results go to; looked at before the work, created when there is something to put
+/// there.
 pub struct OutputDirectory {
     path: PathBuf,
-    created: bool,
 }
 
 impl OutputDirectory {
-    /// Creates the directory where needed and tries whether it can be written to.
+    /// Sees whether the directory can be written to, or created where it is to be.
     ///
     /// # Errors
-    /// A diagnostic when it can't be created or written to.
-    pub fn open(path: &Path) -> Result<OutputDirectory, Diagnostic> {
-        let created = !path.is_dir();
-        fs::create_dir_all(path).map_err(|e| unwritable(path, &e))?;
-        let directory = OutputDirectory { path: path.into(), created };
-        directory.temporary().map_err(|e| unwritable(path, &e))?;
-        Ok(directory)
-    }
-
-    /// Takes the directory away again when it was made for nothing.
-    pub fn abandon(self) {
-        if self.created {
-            // Only an empty directory can be removed so: nothing is lost.
-            let _ = fs::remove_dir(&self.path);
-        }
+    /// A diagnostic when it can't.
+    pub fn probe(path: &Path) -> Result<OutputDirectory, Diagnostic> {
+        // The nearest place that is there already decides.
+        let there = path.ancestors().find(|a| a.exists()).unwrap_or(Path::new("."));
+        temporary_in(there).map_err(|e| unwritable(path, &e))?;
+        Ok(OutputDirectory { path: path.into() })
     }
 
     /// Writes all artifacts, or none; they appear in the order given, each at once.
@@ -102,6 +93,7 @@ impl OutputDirectory {
     /// # Errors
     /// A diagnostic when one can't be written.
     pub fn write(&self, artifacts: &[Artifact]) -> Result<Vec<PathBuf>, Diagnostic> {
+        fs::create_dir_all(&self.path).map_err(|e| unwritable(&self.path, &e))?;
         let mut ready = Vec::new();
         for artifact in artifacts {
             let path = self.path.join(&artifact.name);
@@ -119,19 +111,10 @@ impl OutputDirectory {
 
     /// A temporary file with some contents that are on the disk.
     fn filled(&self, contents: &[u8]) -> io::Result<NamedTempFile> {
-        let mut file = self.temporary()?;
+        let mut file = temporary_in(&self.path)?;
         file.write_all(contents)?;
         file.as_file().sync_all()?;
         Ok(file)
-    }
-
-    /// A temporary file beside the results, so that a rename puts it in place.
-    fn temporary(&self) -> io::Result<NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".dosmc-");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(&self.path)
     }
 
     /// Makes the renames last, where directories can be synced.
@@ -140,6 +123,17 @@ impl OutputDirectory {
             let _ = directory.sync_all();
         }
     }
+}
+
+/// A temporary file beside the results, so that a rename puts it in place.
+fn temporary_in(directory: &Path) -> io::Result<NamedTempFile> {
+    // An empty path stands for the current directory.
+    let directory = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".dosmc-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(directory)
 }
 
 /// Writes a new file; one that is there is left alone.
@@ -166,18 +160,21 @@ mod tests {
     #[test]
     fn a_failed_write_changes_nothing() {
         let dir = tempfile::tempdir().expect("a directory");
-        let out = OutputDirectory::open(&dir.path().join("a/b")).expect("it can be made");
+        let path = dir.path().join("a/b");
+        let out = OutputDirectory::probe(&path).expect("it can be made");
+        assert!(!dir.path().join("a").exists(), "looking creates nothing");
         out.write(&[artifact("plan.svg", "old"), artifact("plan.json", "old")]).expect("it can be written");
-        assert!(out.write(&[artifact("plan.svg", "new"), artifact("no/such/place", "x")]).is_err());
-        let names = fs::read_dir(dir.path().join("a/b")).expect("it is there").count();
-        assert_eq!(names, 2, "no temporary file stays");
+        fs::create_dir(path.join("taken")).expect("a directory in the way");
+        assert!(out.write(&[artifact("taken", "new"), artifact("plan.json", "new")]).is_err());
+        assert_eq!(fs::read_to_string(path.join("plan.json")).expect("it is there"), "old");
+        assert_eq!(fs::read_dir(&path).expect("it is there").count(), 3, "no temporary file stays");
     }
 
     #[test]
-    fn an_empty_directory_made_for_nothing_goes_away() {
+    fn a_place_that_is_no_directory_is_refused_at_once() {
         let dir = tempfile::tempdir().expect("a directory");
-        OutputDirectory::open(&dir.path().join("new")).expect("it can be made").abandon();
-        OutputDirectory::open(dir.path()).expect("it is there").abandon();
-        assert!(dir.path().is_dir() && !dir.path().join("new").exists());
+        fs::write(dir.path().join("file"), "").expect("it can be written");
+        assert!(OutputDirectory::probe(&dir.path().join("file")).is_err());
+        assert!(OutputDirectory::probe(&dir.path().join("file/below")).is_err());
     }
 }

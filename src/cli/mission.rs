@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use super::output::Output;
 use super::{Status, files};
-use crate::diag::{Diagnostic, Diagnostics};
-use crate::driver::{self, Overrides};
+use crate::diag::{Diagnostic, Diagnostics, Reported};
+use crate::driver::{self, Mission, Overrides};
+use crate::ir::Problem;
 use crate::source::SourceFile;
 use crate::syntax;
 
@@ -39,8 +41,41 @@ pub fn open(path: &Path) -> Result<SourceFile, Box<Unopened>> {
 }
 
 /// Loads a mission; its diagnostics are sorted by place.
-pub fn load(source: &SourceFile, overrides: &Overrides) -> (Option<()>, Vec<Diagnostic>) {
+pub fn load(source: &SourceFile, overrides: &Overrides) -> (Option<Mission>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::new();
     let loaded = driver::load(source, overrides, &mut diagnostics).ok();
-    (loaded, diagnostics.sorted().into_iter().cloned().collect())
+    (loaded, sorted(&diagnostics))
+}
+
+/// Reads a mission's problem, and says what is wrong with it.
+///
+/// # Errors
+/// The command's status when there is something wrong, which was said.
+pub fn problem_or_fail(path: &Path, overrides: &Overrides, output: &Output) -> Result<Problem, Status> {
+    let source = open_or_fail(path, output)?;
+    let mut diagnostics = Diagnostics::new();
+    let problem = driver::problem(&source, overrides, &mut diagnostics);
+    told(problem, &source, &sorted(&diagnostics), output).map(|(problem, _)| problem)
+}
+
+/// Reads a mission's text, and says why when that fails.
+///
+/// # Errors
+/// The command's status when it can't be read, which was said.
+pub fn open_or_fail(path: &Path, output: &Output) -> Result<SourceFile, Status> {
+    open(path).map_err(|unopened| output.fail_in(&unopened.source, &[unopened.problem], unopened.status))
+}
+
+/// Says what was found; errors end the command.
+fn told<T>(
+    loaded: Result<T, Reported>,
+    source: &SourceFile,
+    diagnostics: &[Diagnostic],
+    output: &Output,
+) -> Result<T, Status> {
+    loaded.inspect(|_| output.diagnostics(source, diagnostics)).map_err(|_| output.fail_in(source, diagnostics, Status::Mission))
+}
+
+fn sorted(diagnostics: &Diagnostics) -> Vec<Diagnostic> {
+    diagnostics.sorted().into_iter().cloned().collect()
 }

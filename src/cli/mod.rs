@@ -12,6 +12,7 @@ mod mission;
 mod new;
 mod output;
 mod time;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -65,6 +66,7 @@ fn run(args: Args) -> Status {
     }
     match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, &output),
+        Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
         Command::New { name } => new::new(&name, &output),
     }
 }

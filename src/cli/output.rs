@@ -91,7 +91,12 @@ impl Output {
 
     /// Ends a command with an error that has no place in a mission.
     pub fn fail(&self, diagnostic: Diagnostic) -> Status {
-        self.fail_in(&SourceFile::new("", ""), &[diagnostic], Status::Usage)
+        self.fail_with(diagnostic, Status::Usage)
+    }
+
+    /// Ends a command with an error that has no place in a mission, and a status of its own.
+    pub fn fail_with(&self, diagnostic: Diagnostic, status: Status) -> Status {
+        self.fail_in(&SourceFile::new("", ""), &[diagnostic], status)
     }
 
     /// Ends a command with errors in a source.
