@@ -83,9 +83,11 @@ Exit status: 0 no errors, 1 a file can't be read, 2 errors.")]
         missions: Vec<PathBuf>,
     },
     /// Check a plan against its mission, in exact arithmetic, believing nothing
-    #[command(after_help = "Give the same `--set`s as when the plan was made. The verdict comes from the checks alone; that \
+    #[command(
+        after_help = "Give the same `--set`s as when the plan was made. The verdict comes from the checks alone; that \
 the mission's text has changed since is only said (`same_text` with --json).\n\n\
-Exit status: 0 the plan holds, 1 usage or files, 2 errors in the mission, 5 the plan is refused.")]
+Exit status: 0 the plan holds, 1 usage or files, 2 errors in the mission, 5 the plan is refused."
+    )]
     Verify {
         /// The plan, a `plan.json`
         plan: PathBuf,

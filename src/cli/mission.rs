@@ -73,7 +73,9 @@ fn told<T>(
     diagnostics: &[Diagnostic],
     output: &Output,
 ) -> Result<T, Status> {
-    loaded.inspect(|_| output.diagnostics(source, diagnostics)).map_err(|_| output.fail_in(source, diagnostics, Status::Mission))
+    loaded
+        .inspect(|_| output.diagnostics(source, diagnostics))
+        .map_err(|_| output.fail_in(source, diagnostics, Status::Mission))
 }
 
 fn sorted(diagnostics: &Diagnostics) -> Vec<Diagnostic> {

@@ -85,7 +85,7 @@ impl Output {
     pub fn diagnostics<'a>(&self, source: &SourceFile, all: impl IntoIterator<Item = &'a Diagnostic>) {
         let kept = all.into_iter().filter(|d| !self.quiet || d.severity == Severity::Error);
         if !self.json {
-            self.complain(render(source, kept, self.style).trim_end_matches('\n'));
+            self.complain(render(source, kept, self.style).strip_suffix('\n').unwrap_or_default());
         }
     }
 

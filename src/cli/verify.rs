@@ -55,7 +55,8 @@ fn read_plan(path: &Path) -> Result<Result<Plan, Diagnostic>, Diagnostic> {
 
 /// Says what came out.
 fn tell(report: &Report, time_s: f64, output: &Output) -> Status {
-    let (status, code) = if report.holds() { ("checked", Status::Done) } else { ("refused", Status::Refused) };
+    let (status, code) =
+        if report.holds() { ("checked", Status::Done) } else { ("refused", Status::Refused) };
     let json = JsonVerify { status, same_text: report.same_text, time_s, report: report.to_json() };
     let said = output.say(&printable(&report.to_string()));
     said.and_then(|()| output.json(&json)).err().unwrap_or(code)
