@@ -2,12 +2,13 @@
 //!
 //! Nothing here reads a file, looks at the clock or prints.
 
+use crate::abstraction;
 use crate::check;
-use crate::diag::{Diagnostics, Reported};
-use crate::ir::{Problem, Spans};
+use crate::diag::{Diagnostic, Diagnostics, Reported};
+use crate::ir::{self, Problem, Spans, Violation};
 use crate::lower;
 use crate::plan::Plan;
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Span};
 use crate::syntax;
 use crate::tube::{self, Tubes};
 use crate::verify::{self, Report};
@@ -46,7 +47,16 @@ pub fn problem(
     let (mut problem, spans) = lower::lower(&typed);
     problem.horizon = overrides.horizon.unwrap_or(problem.horizon);
     diagnostics.or_reported()?;
+    ir::validate(&problem).map_err(|violations| diagnostics.report(invalid(&violations)))?;
     Ok((problem, spans))
+}
+
+/// What is said when an earlier phase has let something through that later ones rely on: a bug, but
+/// no reason to go on with it.
+fn invalid(violations: &[Violation]) -> Diagnostic {
+    let all: Vec<String> = violations.iter().map(Violation::to_string).collect();
+    Diagnostic::error("dosm::ir::invalid", format!("internal error: {}", all.join("; ")), Span::default(), "")
+        .with_help("this is a bug in dosmc, not in your mission: please report it with the mission")
 }
 
 /// Reads a mission and looks for everything that is wrong with it, short of a search.
@@ -60,7 +70,7 @@ pub fn load(
 ) -> Result<Mission, Reported> {
     let (problem, spans) = problem(source, overrides, diagnostics)?;
     let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
-    diagnostics.or_reported()?;
+    abstraction::inspect(&problem, &spans, &tubes, diagnostics)?;
     Ok(Mission { problem, spans, tubes })
 }
 
