@@ -391,8 +391,7 @@ impl Checker<'_> {
         span: Span,
     ) -> Result<Value, Reported> {
         if !b.dimension.is_bare() {
-            let message = messages::exponent_with_unit(left, right, b.dimension, self.source);
-            return Err(self.report(message));
+            return Err(self.report(messages::exponent_with_unit(right.span, b.dimension)));
         }
         let dimension = power_dimension(a.dimension, &b.number);
         let Some(dimension) = dimension else {

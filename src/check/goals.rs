@@ -2,7 +2,9 @@
 
 use crate::check::formulas::mentioned;
 use crate::check::order::dependency_order;
+use crate::check::vacuity::contradictions;
 use crate::check::{Checker, Entry, messages, typed};
+use crate::entity::EntityId;
 use crate::syntax::ast::{Formula, ItemKind, Name};
 use crate::{ir, lower};
 
@@ -57,11 +59,12 @@ impl Checker<'_> {
     fn look_for_vacuous_goals(&mut self) {
         let roots: Vec<typed::FormulaId> = self.goals.iter().map(|goal| goal.formula).collect();
         let (formulas, roots) = lower::normalise(&self.formulas, &roots);
+        let contradictory = contradictions(&formulas);
         for (goal, root) in self.goals.iter().zip(roots) {
-            match formulas[root] {
-                ir::Formula::True => self.diagnostics.push(messages::trivial_goal(&goal.name, goal.span)),
-                ir::Formula::False => self.diagnostics.push(messages::false_goal(&goal.name, goal.span)),
-                _ => {}
+            if contradictory[root.index()] {
+                self.diagnostics.push(messages::false_goal(&goal.name, goal.span));
+            } else if formulas[root] == ir::Formula::True {
+                self.diagnostics.push(messages::trivial_goal(&goal.name, goal.span));
             }
         }
     }

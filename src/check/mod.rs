@@ -22,6 +22,7 @@ mod sums;
 #[cfg(test)]
 mod tests;
 pub mod typed;
+mod vacuity;
 mod windows;
 
 use std::collections::BTreeMap;

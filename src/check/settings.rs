@@ -50,7 +50,7 @@ impl Default for Settings {
 const ANY_HOPS: ir::Connectivity = ir::Connectivity { hops: None, range: None, redundancy: 0, every: 1 };
 
 impl Checker<'_> {
-    /// Reads every setting that does not depend on robots or models.
+    /// Reads every setting that does not depend on robots or models; the parser has seen to the edition.
     pub(super) fn settings(&mut self) {
         let file = self.file;
         let mut firsts: Vec<(&'static str, Span)> = Vec::new();
@@ -64,16 +64,10 @@ impl Checker<'_> {
             // A setting that is wrong keeps its default, so that nothing else complains about it.
             let _ = self.setting(&item.kind, item.span);
         }
-        if !firsts.iter().any(|(word, _)| *word == "dosm") && !file.has_broken_keyword("dosm") {
-            self.report(messages::missing_edition(file.span));
-        }
     }
 
     fn setting(&mut self, kind: &ItemKind, span: Span) -> Result<(), Reported> {
         match kind {
-            ItemKind::Edition(number) if number.value != 1 => {
-                Err(self.report(messages::unknown_edition(number)))
-            }
             ItemKind::Mission(name) => {
                 self.settings.name = Some(name.text.clone());
                 Ok(())

@@ -9,6 +9,10 @@ use crate::entity::{EntityId, Table};
 use crate::ir::{Formula, FormulaId, Formulas};
 use crate::lower::comparison::comparison;
 
+/// The longest list that is merged into the one around it: a chain of a thousand `and`s has a
+/// thousand lists on its way, and they must not add up to their square.
+const MAX_FLATTENED: usize = 64;
+
 /// The negation normal forms of some formulas, in one table.
 pub fn normalise(
     typed: &Table<typed::FormulaId, Typed>,
@@ -195,8 +199,8 @@ impl Builder {
         let mut operands = Vec::new();
         for id in list {
             match &self.formulas[id] {
-                Formula::And(inner) if conjunction => operands.extend(inner),
-                Formula::Or(inner) if !conjunction => operands.extend(inner),
+                Formula::And(inner) if conjunction && inner.len() <= MAX_FLATTENED => operands.extend(inner),
+                Formula::Or(inner) if !conjunction && inner.len() <= MAX_FLATTENED => operands.extend(inner),
                 _ => operands.push(id),
             }
         }
@@ -235,3 +239,6 @@ impl Builder {
         self.formulas.intern(node)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,8 +4,8 @@ use crate::check::names::{Kind, nearest};
 use crate::diag::Diagnostic;
 use crate::exact::Rational;
 use crate::quantity::{Dimension, SYMBOLS};
-use crate::source::{SourceFile, Span};
-use crate::syntax::ast::{Expr, ExprKind, Name, Reference};
+use crate::source::Span;
+use crate::syntax::ast::{Name, Reference};
 
 pub(in crate::check) fn number_out_of_range(span: Span) -> Diagnostic {
     Diagnostic::error(
@@ -64,26 +64,9 @@ pub(in crate::check) fn unit_power(span: Span, dimension: Dimension, exponent: &
     Diagnostic::error("dosm::check::wrong_dimension", message, span, "no unit measures this")
 }
 
-pub(in crate::check) fn exponent_with_unit(
-    base: &Expr,
-    exponent: &Expr,
-    dimension: Dimension,
-    source: &SourceFile,
-) -> Diagnostic {
+pub(in crate::check) fn exponent_with_unit(span: Span, dimension: Dimension) -> Diagnostic {
     let message = format!("an exponent is a number without a unit, not {}", dimension.describe());
-    let diagnostic = Diagnostic::error(
-        "dosm::check::wrong_dimension",
-        message,
-        exponent.span,
-        "a unit binds tighter than every operator",
-    );
-    match &exponent.kind {
-        ExprKind::WithUnit(inner, unit) => {
-            let [base, inner, unit] = [base.span, inner.span, unit.span].map(|s| source.slice(s));
-            diagnostic.with_help(format!("write `({base}^{inner}) {unit}`"))
-        }
-        _ => diagnostic,
-    }
+    Diagnostic::error("dosm::check::wrong_dimension", message, span, "the exponent")
 }
 
 pub(in crate::check) fn division_by_zero(span: Span, zero: Span) -> Diagnostic {

@@ -3,23 +3,7 @@
 use crate::check::names::nearest;
 use crate::diag::Diagnostic;
 use crate::source::Span;
-use crate::syntax::ast::{Name, Number};
-
-pub(in crate::check) fn missing_edition(span: Span) -> Diagnostic {
-    let start = Span { start: span.start, end: span.start };
-    Diagnostic::error(
-        "dosm::check::missing_edition",
-        "the mission does not say its edition",
-        start,
-        "missing",
-    )
-    .with_help("begin with `dosm 1`")
-}
-
-pub(in crate::check) fn unknown_edition(number: &Number) -> Diagnostic {
-    let message = format!("there is no edition {} of the language", number.value);
-    Diagnostic::error("dosm::check::unknown_edition", message, number.span, "this dosmc knows edition 1")
-}
+use crate::syntax::ast::Name;
 
 pub(in crate::check) fn missing_robot(span: Span) -> Diagnostic {
     let end = Span { start: span.end, end: span.end };
