@@ -20,3 +20,10 @@ fn the_references_mission_parses() {
     assert_eq!(file.items.len(), 17, "{:#?}", file.items);
     assert!(file.stray_docs.is_empty());
 }
+
+#[test]
+fn the_tree_of_every_construct() {
+    let (file, diagnostics) = parse(include_str!("missions/parse/everything.dosm"));
+    assert!(diagnostics.is_empty(), "{diagnostics:#?}");
+    insta::assert_snapshot!(syntax::dump(&file.unwrap()));
+}

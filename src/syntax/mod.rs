@@ -13,6 +13,7 @@ mod climb;
 mod condensed;
 mod declaration;
 mod docs;
+mod dump;
 mod dynamics;
 mod error;
 mod expected;
@@ -23,4 +24,5 @@ mod reader;
 mod scan;
 mod shape;
 
+pub use dump::dump;
 pub use reader::{decode, parse, parse_expression};
