@@ -240,3 +240,58 @@ pub(super) fn reserved_word(span: Span, word: &str) -> Diagnostic {
 fn other_name(word: &str) -> String {
     if word.len() == 1 { format!("{word}1") } else { format!("{word}_1") }
 }
+
+pub(super) fn double_equals(span: Span) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::double_equals", "`==` is no operator", span, "")
+        .with_help("equality is written `=`")
+}
+
+pub(super) fn number_form(span: Span, mend: Option<String>) -> Diagnostic {
+    let plain = Diagnostic::error("dosm::syntax::number_form", "this is no number", span, "");
+    plain.with_help(mend.unwrap_or_else(|| "numbers look like `12`, `0.5` and `1e-3`".to_owned()))
+}
+
+pub(super) fn unit_after_bracket(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::misplaced_unit",
+        "no unit follows the bracket of an index or of a window",
+        span,
+        "this unit",
+    )
+    .with_help("write `(P[1, 2]) m` for an entry, and units inside a window: `[0 s, 5 s]`")
+}
+
+pub(super) fn unit_after_name(span: Span, name: &str, unit: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::misplaced_unit",
+        "a unit follows a number or a closing bracket, not a name",
+        span,
+        "this unit",
+    )
+    .with_help(format!("write `({name}) {unit}` if `{name}` has no unit itself, else leave the unit out"))
+}
+
+pub(super) fn unit_with_blanks(span: Span, left: &str, sign: &str, right: &str) -> Diagnostic {
+    Diagnostic::error("dosm::syntax::unit_with_blanks", "units are written without blanks inside", span, "")
+        .with_help(format!("write `{left}{sign}{right}`"))
+}
+
+pub(super) fn chained_comparison(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::chained_comparison",
+        "a comparison has two sides only",
+        span,
+        "a second comparison",
+    )
+    .with_help("write two comparisons: `0 <= x; x <= 5` among half-spaces, `… and …` in a formula")
+}
+
+pub(super) fn sum_bracket(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::sum_bracket",
+        "sums have no brackets but `count(…)` and `(ROBOT in REGION)`",
+        span,
+        "",
+    )
+    .with_help("multiply the bracket out, or name the constant with `let`")
+}

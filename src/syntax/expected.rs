@@ -6,6 +6,7 @@ use crate::syntax::characters::shown;
 use crate::syntax::condensed::Condensed;
 use crate::syntax::error;
 use crate::syntax::grammar::Rule;
+use crate::syntax::mend::{self, Case};
 use crate::syntax::scan::{Bracket, MAX_NESTING, STARTERS};
 
 /// The longest piece of the text that a message repeats, in characters.
@@ -35,6 +36,21 @@ impl Failure {
                 Failure { position, expected: Vec::new(), exhausted: true }
             }
         }
+    }
+
+    /// The rules that were tried where the parser stopped.
+    pub(super) fn rules(&self) -> &[Rule] {
+        &self.expected
+    }
+
+    /// Whether a name could have stood where the parser stopped.
+    pub(super) fn expects_name(&self) -> bool {
+        use Rule::{
+            atom, expression, factor, formula, ident, operand, reference, set, set_member, sum, term, value,
+        };
+        let named =
+            [atom, expression, factor, formula, ident, operand, reference, set, set_member, sum, term, value];
+        named.iter().any(|rule| self.expects(*rule))
     }
 
     /// Whether a rule was tried where the parser stopped.
@@ -76,11 +92,17 @@ pub(super) fn explain(failure: &Failure, text: &str, around: &Surroundings) -> D
             return error::bracket(bracket, span);
         }
     }
-    if failure.expects(Rule::ident) && is_reserved(found) {
-        return error::reserved_word(span, found);
+    let place = |start, end| around.place(start, end);
+    let case = Case { failure, text, found, span, place: &place };
+    if let Some(diagnostic) = mend::known(&case) {
+        return diagnostic;
     }
     let message = format!("expected {}, found {}", alternatives(&failure.expected), seen(found, around.next));
-    Diagnostic::error("dosm::syntax::expected", message, span, "unexpected")
+    let plain = Diagnostic::error("dosm::syntax::expected", message, span, "unexpected");
+    match mend::help(&case) {
+        Some(help) => plain.with_help(help),
+        None => plain,
+    }
 }
 
 /// What was found, for a message.
@@ -100,7 +122,9 @@ fn seen(found: &str, next: Option<&str>) -> String {
 /// The expected things as an enumeration.
 fn alternatives(expected: &[Rule]) -> String {
     let mut words: Vec<String> = Vec::new();
-    for &rule in expected {
+    // What may follow a whole declaration comes last.
+    let ends = expected.iter().filter(|&&rule| rule == Rule::EOI);
+    for &rule in expected.iter().filter(|&&rule| rule != Rule::EOI).chain(ends) {
         let word = name(rule);
         if !words.contains(&word) {
             words.push(word);
@@ -115,13 +139,27 @@ fn alternatives(expected: &[Rule]) -> String {
 
 /// A rule in people's words.
 fn name(rule: Rule) -> String {
-    let text = match rule {
+    match phrase(rule) {
+        Some(phrase) => phrase.to_owned(),
+        // Keywords are called `kw_` and the word; other rules are named after what they are.
+        None => format!("`{}`", format!("{rule:?}").trim_start_matches("kw_")),
+    }
+}
+
+/// The words for a rule that is no single word of the language.
+fn phrase(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
         Rule::EOI => "the next declaration",
-        Rule::declaration => "a declaration",
-        Rule::ident => "a name",
-        Rule::reference => "a name",
-        Rule::expression | Rule::value => "an expression",
-        Rule::operand | Rule::quantity | Rule::factor => "a number or a name",
+        Rule::declaration | Rule::lone_declaration | Rule::leading_declaration | Rule::file => {
+            "a declaration"
+        }
+        Rule::ident | Rule::reference | Rule::family | Rule::names => "a name",
+        Rule::index_range => "an index",
+        Rule::range => "a range",
+        Rule::set | Rule::set_member => "a set of robots",
+        Rule::expression | Rule::value | Rule::lone_expression => "an expression",
+        Rule::operand | Rule::quantity | Rule::factor | Rule::call => "a number or a name",
+        Rule::coordinate => "a coordinate",
         Rule::arithmetic => "an operator",
         Rule::minus => "`-`",
         Rule::unit | Rule::unit_one => "a unit",
@@ -129,18 +167,27 @@ fn name(rule: Rule) -> String {
         Rule::table | Rule::row => "a table",
         Rule::shape | Rule::piece => "a shape",
         Rule::point => "a point",
+        Rule::inequality => "an inequality",
+        Rule::initial => "a point or `{`",
+        Rule::entry => "the value of a state",
+        Rule::signal => "a name with its unit",
         Rule::formula | Rule::atom | Rule::prefix => "a formula",
+        Rule::membership => "`ROBOT in REGION`",
         Rule::connective => "a connective",
-        Rule::window => "a window",
-        Rule::comparator => "a comparison",
+        Rule::comparator => "a comparison sign",
+        Rule::sum | Rule::term | Rule::comparison => "a sum",
+        Rule::sum_operator => "`+` or `-`",
+        Rule::truth => "`true` or `false`",
         Rule::dynamics_item => "an item of `dynamics`",
+        Rule::mode_item | Rule::matrix => "a matrix `A`, `B` or `c`",
+        Rule::letter => "`A`, `B` or `c`",
         Rule::connectivity_item => "an item of `connectivity`",
         Rule::plus_minus => "`+/-`",
         Rule::lparen | Rule::group | Rule::formula_group | Rule::counted => "`(`",
         Rule::rparen => "`)`",
-        Rule::lbracket | Rule::index => "`[`",
+        Rule::lbracket | Rule::index | Rule::window | Rule::interval => "`[`",
         Rule::rbracket => "`]`",
-        Rule::lbrace | Rule::full_state => "`{`",
+        Rule::lbrace | Rule::full_state | Rule::inequalities => "`{`",
         Rule::rbrace => "`}`",
         Rule::comma => "`,`",
         Rule::semicolon => "`;`",
@@ -149,10 +196,20 @@ fn name(rule: Rule) -> String {
         Rule::equals => "`=`",
         Rule::at_most => "`<=`",
         Rule::times => "`*`",
-        Rule::sum_operator => "`+` or `-`",
-        other => return format!("`{}`", format!("{other:?}").trim_start_matches("kw_")),
-    };
-    text.to_owned()
+        Rule::iff => "`<->`",
+        Rule::implies => "`->`",
+        Rule::weak_until => "`weak until`",
+        Rule::strong_release => "`strong release`",
+        Rule::box_shape => "`box`",
+        Rule::half_spaces => "`where`",
+        Rule::reach => "`range`",
+        Rule::constant => "`let`",
+        Rule::edition => "`dosm`",
+        Rule::defined => "a name",
+        Rule::letter_w => "`W`",
+        Rule::letter_m => "`M`",
+        _ => return None,
+    })
 }
 
 /// The reserved words that begin no declaration.
@@ -222,4 +279,22 @@ fn token_length(rest: &str) -> Option<usize> {
     }
     let sign = SIGNS.iter().find(|sign| rest.starts_with(**sign));
     Some(sign.map_or(first.len_utf8(), |sign| sign.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_for_people() {
+        for rule in Rule::all_rules() {
+            let name = name(*rule);
+            assert!(!name.contains('_') || is_lexical(*rule), "{rule:?} is called {name}");
+        }
+    }
+
+    /// Rules that are parts of tokens or not tracked.
+    fn is_lexical(rule: Rule) -> bool {
+        matches!(rule, Rule::line_comment | Rule::block_comment | Rule::unit_symbol | Rule::unit_power)
+    }
 }

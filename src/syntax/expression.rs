@@ -106,10 +106,10 @@ impl Builder<'_> {
         let Some(quantity) = Children::of(exponent.clone()).take_if(Rule::quantity) else { return };
         let mut children = Children::of(quantity.clone());
         let (Some(number), Some(unit)) = (children.next(), children.take_if(Rule::unit)) else { return };
-        let base = base.map_or("", |base| base.as_str().trim_end());
-        let power = format!("{base}^{}", number.as_str());
+        let (start, end) = (base.map_or(0, |base| base.as_span().start()), number.as_span().end());
+        let power = number.get_input().get(start..end).unwrap_or("");
         let span = self.span(&quantity);
-        self.report(error::unit_in_exponent(span, &power, unit.as_str()));
+        self.report(error::unit_in_exponent(span, power, unit.as_str()));
     }
 
     fn operand(&mut self, node: Node) -> Built<Deep<Expr>> {

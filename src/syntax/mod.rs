@@ -20,6 +20,7 @@ mod expected;
 mod expression;
 mod formula;
 mod grammar;
+mod mend;
 mod reader;
 mod scan;
 mod shape;

@@ -51,7 +51,8 @@ pub fn parse_expression(text: &str) -> Result<Expr, Diagnostic> {
         return Err(diagnostic);
     }
     let condensed = &scan.condensed;
-    let around = Surroundings { source: text, condensed, base: 0, next: None, bracket: None };
+    let bracket = scan.stretches.first().and_then(|stretch| stretch.bracket);
+    let around = Surroundings { source: text, condensed, base: 0, next: None, bracket };
     let pairs = grammar::run(Rule::lone_expression, condensed.text())
         .map_err(|error| expected::explain(&Failure::of(&error), condensed.text(), &around))?;
     let mut builder = Builder::new(text, condensed, 0, &mut scan.docs);
@@ -68,9 +69,8 @@ pub fn parse_expression(text: &str) -> Result<Expr, Diagnostic> {
 /// # Errors
 /// Where the first byte stands that is no UTF-8.
 pub fn decode(bytes: &[u8]) -> Result<String, Diagnostic> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
-        Ok(text) => Ok(text.to_owned()),
+        Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned()),
         Err(error) => Err(error::not_utf8(error.valid_up_to())),
     }
 }

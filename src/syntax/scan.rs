@@ -89,6 +89,9 @@ pub(super) fn scan(source: &str) -> Result<Scan, Diagnostic> {
         }
     }
     scanner.end_stretch();
+    for doc in scanner.pending_docs.drain(..) {
+        scanner.scan.docs.add_stray(doc.span);
+    }
     Ok(scanner.scan)
 }
 
@@ -147,10 +150,7 @@ impl<'s> Scanner<'s> {
             '/' if self.rest().starts_with("//") => self.line_comment(),
             '/' if self.rest().starts_with("/*") => self.block_comment()?,
             'a'..='z' | 'A'..='Z' | '_' => self.word(),
-            '0'..='9' => {
-                let length = self.run(|b| b.is_ascii_alphanumeric() || b == b'_');
-                self.token(length);
-            }
+            '0'..='9' => self.digits(),
             '(' | '[' | '{' => self.opening(next)?,
             ')' | ']' | '}' => self.closing(next),
             '!'..='~' | '±' => self.token(next.len_utf8()),
@@ -161,18 +161,25 @@ impl<'s> Scanner<'s> {
 
     /// Hands on the next `length` bytes.
     fn token(&mut self, length: usize) {
+        self.place_docs();
         let piece = self.source.get(self.position..self.position + length).unwrap_or("");
-        self.replaced_token(piece, length);
+        self.scan.condensed.push(piece, self.position);
+        self.position += length;
     }
 
     /// Hands on `piece` in place of the next `length` bytes.
     fn replaced_token(&mut self, piece: &str, length: usize) {
+        self.place_docs();
+        self.scan.condensed.replace(piece, self.position, length);
+        self.position += length;
+    }
+
+    /// Documentation belongs to the token that comes now.
+    fn place_docs(&mut self) {
         let place = self.scan.condensed.next_start();
         for doc in self.pending_docs.drain(..) {
             self.scan.docs.add(place, doc);
         }
-        self.scan.condensed.push(piece, self.position);
-        self.position += length;
         self.after_opaque = false;
     }
 
@@ -184,9 +191,22 @@ impl<'s> Scanner<'s> {
         }
         if length > MAX_NAME {
             self.report(error::long_name(self.here(length), length));
+            self.replaced_token(word.get(..MAX_NAME).unwrap_or(word), length);
+        } else {
+            self.token(length);
         }
-        self.token(length);
         self.after_opaque = word == "opaque";
+    }
+
+    /// Digits with whatever touches them; so many that the number's limit is passed are not handed on.
+    fn digits(&mut self) {
+        let length = self.run(|b| b.is_ascii_alphanumeric() || b == b'_');
+        if length > error::MAX_DIGITS {
+            self.report(error::number_too_long(self.here(length), length));
+            self.replaced_token("1", length);
+        } else {
+            self.token(length);
+        }
     }
 
     fn opening(&mut self, sign: char) -> Result<(), Diagnostic> {
@@ -253,7 +273,10 @@ impl<'s> Scanner<'s> {
             Character::Letter => {
                 let is_word = |c: &char| c.is_alphanumeric() || *c == '_';
                 let length = self.rest().chars().take_while(is_word).map(char::len_utf8).sum();
-                self.report(error::foreign_letter(self.here(length), character));
+                let before = self.source.get(..self.position).unwrap_or("");
+                let start = before.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_').len();
+                let span = Span::new(start, self.position + length);
+                self.report(error::foreign_letter(span, character));
                 self.replaced_token("_", length);
             }
             Character::Other => {

@@ -1,0 +1,312 @@
+//! Mistakes whose mend is known, recognised at the place where the parser stopped.
+
+use crate::diag::Diagnostic;
+use crate::source::Span;
+use crate::syntax::error;
+use crate::syntax::expected::{Failure, is_reserved, is_word, token_at};
+use crate::syntax::grammar::Rule;
+use crate::syntax::scan::STARTERS;
+
+/// The symbols of units.
+const UNITS: [&str; 12] = ["m", "cm", "mm", "km", "s", "ms", "min", "rad", "deg", "kg", "g", "N"];
+
+/// The keywords that may begin what a rule matches, for the rules that messages name as a whole.
+const WORDS_OF: [(Rule, &[&str]); 7] = [
+    (Rule::EOI, &STARTERS),
+    (Rule::declaration, &STARTERS),
+    (
+        Rule::dynamics_item,
+        &[
+            "step",
+            "state",
+            "input",
+            "position",
+            "continuous",
+            "integrator",
+            "bound",
+            "disturbance",
+            "rejection",
+            "mode",
+        ],
+    ),
+    (Rule::connectivity_item, &["hops", "range", "redundancy", "every"]),
+    (Rule::shape, &["box", "ball", "disc", "polygon", "hull", "where"]),
+    (Rule::piece, &["box", "ball", "disc", "polygon", "hull", "where"]),
+    (Rule::connective, &["and", "or", "until", "release", "weak", "strong"]),
+];
+
+/// A place where the parser stopped.
+pub(super) struct Case<'a> {
+    /// What pest says.
+    pub(super) failure: &'a Failure,
+    /// The text that pest saw.
+    pub(super) text: &'a str,
+    /// The token at the place.
+    pub(super) found: &'a str,
+    /// Its place in the source.
+    pub(super) span: Span,
+    /// The place in the source of a part of the text.
+    pub(super) place: &'a dyn Fn(usize, usize) -> Span,
+}
+
+/// The diagnostic of a mistake that is known as such.
+pub(super) fn known(case: &Case) -> Option<Diagnostic> {
+    const MISTAKES: [fn(&Case) -> Option<Diagnostic>; 8] = [
+        reserved_word,
+        double_equals,
+        number_form,
+        misplaced_unit,
+        unit_with_blanks,
+        missing_comma,
+        chained_comparison,
+        sum_bracket,
+    ];
+    MISTAKES.iter().find_map(|mistake| mistake(case))
+}
+
+/// A mend for a sign or word that stands where something else was expected.
+pub(super) fn help(case: &Case) -> Option<String> {
+    let ends = case.failure.expects(Rule::EOI);
+    let text = match case.found {
+        "&" => "the operator is `and` or `&&`",
+        "|" => "the operator is `or` or `||`",
+        "~" | "¬" => "the operator is `not` or `!`",
+        "=>" => "the operator is `->`",
+        "<=>" => "the operator is `<->`",
+        ":=" => "write `=`",
+        "#" => "comments begin with `//`",
+        "%" => "the remainder is `mod(a, b)`; comments begin with `//`",
+        "*" if case.before().ends_with('*') => "powers are written with `^`",
+        "\"" | "'" | "`" => "there are no quotation marks in missions",
+        ";" if ends => "declarations are not followed by `;`",
+        "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
+        word if is_reserved(word) && case.failure.expects_name() => {
+            "it is a word of the language and can't be a name"
+        }
+        word if is_word(word) => return case.nearest_keyword().map(|near| format!("did you mean `{near}`?")),
+        _ => return None,
+    };
+    Some(text.to_owned())
+}
+
+impl Case<'_> {
+    /// What stands before the place, without the blanks at its end.
+    fn before(&self) -> &str {
+        self.text.get(..self.failure.position).unwrap_or("").trim_end()
+    }
+
+    /// What stands behind the found token.
+    fn after(&self) -> &str {
+        self.text.get(self.failure.position + self.found.len()..).unwrap_or("")
+    }
+
+    /// Whether the found token touches what stands before it.
+    fn touches(&self) -> bool {
+        self.before().len() == self.failure.position
+    }
+
+    fn place_of_last(&self, length: usize) -> Span {
+        let end = self.before().len();
+        (self.place)(end.saturating_sub(length), end)
+    }
+
+    /// The keyword that would fit and is spelt nearly like the found word.
+    fn nearest_keyword(&self) -> Option<String> {
+        let mut keywords: Vec<String> = self
+            .failure
+            .rules()
+            .iter()
+            .filter_map(|rule| format!("{rule:?}").strip_prefix("kw_").map(str::to_owned))
+            .collect();
+        for (rule, words) in WORDS_OF {
+            if self.failure.expects(rule) {
+                keywords.extend(words.iter().map(|word| (*word).to_owned()));
+            }
+        }
+        let near = |word: &String| (distance(self.found, word), word.clone());
+        let limit = if self.found.len() <= 3 { 1 } else { 2 };
+        keywords.iter().map(near).filter(|(d, _)| *d <= limit).min().map(|(_, word)| word)
+    }
+}
+
+fn reserved_word(case: &Case) -> Option<Diagnostic> {
+    (case.failure.expects(Rule::ident) && is_reserved(case.found))
+        .then(|| error::reserved_word(case.span, case.found))
+}
+
+fn double_equals(case: &Case) -> Option<Diagnostic> {
+    (case.found == "==").then(|| error::double_equals(case.span))
+}
+
+/// `.5`, `1.`, `12abc`, `1_000`, `0x10`, `1e`
+fn number_form(case: &Case) -> Option<Diagnostic> {
+    let digit_follows = case.after().starts_with(|c: char| c.is_ascii_digit());
+    if case.found == "." && !case.before().ends_with('.') {
+        let run = if case.touches() { trailing_number(case.before()) } else { "" };
+        let digits = case.after().bytes().take_while(u8::is_ascii_digit).count();
+        let end = case.failure.position + 1 + digits;
+        let start = case.failure.position - run.len();
+        let mend = match (run, digit_follows) {
+            ("", true) => Some(format!("write `0{}`", case.text.get(start..end).unwrap_or(""))),
+            (whole, false) if !whole.is_empty() && !whole.contains('.') => Some(format!("write `{whole}`")),
+            _ => None,
+        };
+        return (digit_follows || !run.is_empty())
+            .then(|| error::number_form((case.place)(start, end), mend));
+    }
+    let touching = case.touches() && case.found.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
+    let run = trailing_number(case.before());
+    if !touching || run.is_empty() {
+        return None;
+    }
+    let start = case.failure.position - run.len();
+    let end = case.failure.position + case.found.len();
+    let mend = case.found.starts_with('_').then(|| "digits are written without separators".to_owned());
+    Some(error::number_form((case.place)(start, end), mend))
+}
+
+/// The number that a text ends in.
+fn trailing_number(text: &str) -> &str {
+    let kept = text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let number = text.get(kept.len()..).unwrap_or("");
+    if kept.ends_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
+        ""
+    } else {
+        number.trim_start_matches('.')
+    }
+}
+
+/// A unit behind a name, an index or a window.
+fn misplaced_unit(case: &Case) -> Option<Diagnostic> {
+    let before = case.before();
+    if UNITS.contains(&case.found) {
+        if before.ends_with(']') {
+            return Some(error::unit_after_bracket(case.span));
+        }
+        let name = last_word(before);
+        let named = is_word(name) && !is_reserved(name);
+        return named.then(|| error::unit_after_name(case.span, name, case.found));
+    }
+    // `always[0, 5] s p`: the unit was taken for a formula's name.
+    let unit = last_word(before);
+    let bracket = before.strip_suffix(unit).is_some_and(|rest| rest.trim_end().ends_with(']'));
+    (UNITS.contains(&unit) && bracket && case.failure.expects(Rule::connective))
+        .then(|| error::unit_after_bracket(case.place_of_last(unit.len())))
+}
+
+/// `m / s`
+fn unit_with_blanks(case: &Case) -> Option<Diagnostic> {
+    let unit = last_word(case.before());
+    let next = token_at(case.after(), 0);
+    let goes_on = match case.found {
+        "/" | "*" => UNITS.contains(&next),
+        "^" => next == "-" || next.starts_with(|c: char| c.is_ascii_digit()),
+        _ => false,
+    };
+    (goes_on && UNITS.contains(&unit)).then(|| error::unit_with_blanks(case.span, unit, case.found, next))
+}
+
+/// `[0 1]`, `(4 7)`, `polygon (0, 0) (1, 0)`
+fn missing_comma(case: &Case) -> Option<Diagnostic> {
+    let value = case.found == "("
+        || (case.found.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
+            && !is_reserved(case.found));
+    if !value || !case.failure.expects(Rule::comma) || case.failure.expects(Rule::colon) {
+        return None;
+    }
+    let listed = match innermost_bracket(case.before()) {
+        Some('(' | '[') => true,
+        _ => case.found == "(",
+    };
+    listed.then(|| error::missing_comma(case.span))
+}
+
+/// `0 <= x <= 5`
+fn chained_comparison(case: &Case) -> Option<Diagnostic> {
+    let comparison = matches!(case.found, "<" | "<=" | ">" | ">=" | "=" | "!=");
+    let fits = [Rule::comparator, Rule::equals, Rule::at_most].iter().any(|r| case.failure.expects(*r));
+    if !comparison || fits {
+        return None;
+    }
+    let before = case.before();
+    let start = before.rfind(['{', ';', ':']).map_or(0, |i| i + 1);
+    let clause = before.get(start..).unwrap_or("");
+    let first =
+        clause.rfind(['<', '>', '=']).filter(|i| !clause.get(i + 1..).unwrap_or("").trim().is_empty())?;
+    let declared = clause.get(..first).unwrap_or("");
+    // In `define p = a = b = c` the first sign is no comparison; `->` and `<->` aren't either.
+    let arrow = declared.ends_with('-')
+        || clause.get(first..first + 1) == Some("=") && STARTERS.contains(&first_word(clause));
+    let in_clause = case.failure.expects(Rule::arithmetic) || case.failure.expects(Rule::sum_operator);
+    (!arrow && in_clause).then(|| error::chained_comparison(case.span))
+}
+
+/// `(n + 1) * count(…)`, `(R1 in A or p) = 1`
+fn sum_bracket(case: &Case) -> Option<Diagnostic> {
+    let operator = matches!(case.found, "+" | "-" | "*" | "<" | "<=" | ">" | ">=" | "=" | "!=");
+    let behind = operator && case.failure.expects(Rule::connective) && case.before().ends_with(')');
+    let inside = case.found == ")" && case.failure.expects(Rule::sum_operator);
+    (behind || inside).then(|| error::sum_bracket(case.span))
+}
+
+fn first_word(text: &str) -> &str {
+    token_at(text, 0)
+}
+
+/// The word or number that a text ends in.
+fn last_word(text: &str) -> &str {
+    let kept = text.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+    text.get(kept.len()..).unwrap_or("")
+}
+
+/// The innermost bracket that is open at the end of a text.
+fn innermost_bracket(text: &str) -> Option<char> {
+    let mut closed = 0usize;
+    for character in text.chars().rev() {
+        match character {
+            ')' | ']' | '}' => closed += 1,
+            '(' | '[' | '{' if closed == 0 => return Some(character),
+            '(' | '[' | '{' => closed -= 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The number of letters to change, add, leave out or swap with their neighbour.
+fn distance(a: &str, b: &str) -> usize {
+    if a.len().abs_diff(b.len()) > 2 {
+        return usize::MAX;
+    }
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut best = change.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(best);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_count_changes() {
+        assert_eq!(distance("regoin", "region"), 1);
+        assert_eq!(distance("raduis", "radius"), 1);
+        assert_eq!(distance("ca", "abc"), 3);
+        assert_eq!(distance("jamer", "jammer"), 1);
+        assert_eq!(distance("goal", "goal"), 0);
+        assert_eq!(distance("", "ab"), 2);
+        assert_eq!(distance("goals", "goal"), 1);
+    }
+}
