@@ -321,7 +321,7 @@ fn decimal(text: &str) -> Option<Rational> {
     // The value lies in 10^top .. 10^(top + 1).
     let top = exponent.saturating_add(digits.len() as i64 - 1);
     let power_of_ten = digits.starts_with('1') && digits.bytes().skip(1).all(|d| d == b'0');
-    if top < -MAX_EXPONENT || top > MAX_EXPONENT || (top == MAX_EXPONENT && !power_of_ten) {
+    if !(-MAX_EXPONENT..=MAX_EXPONENT).contains(&top) || (top == MAX_EXPONENT && !power_of_ten) {
         return None;
     }
     Rational::from_decimal(digits, i32::try_from(exponent).ok()?)

@@ -150,7 +150,7 @@ fn messages_hold_no_raw_control_or_bidi_characters() {
     for odd in ["\u{1b}[31m", "\u{202e}", "\u{7f}", "\0", "\u{2066}", "\u{200b}", "\u{85}"] {
         for text in [
             format!("dosm 1 mission a{odd}b"),
-            format!("{odd}"),
+            odd.to_owned(),
             format!("let {odd} = {odd}"),
             format!("dosm {odd}1"),
         ] {
