@@ -2,7 +2,13 @@
 
 pub mod json;
 
+mod extract;
+mod nominal;
+
 use std::collections::BTreeMap;
+
+pub use extract::extract;
+pub use nominal::Nominal;
 
 /// A plan with all its witnesses. All numbers are SI doubles, meant exactly as they stand.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,426 @@
+//! Step 2: the Boolean part, which grows with the length and on demand.
+//!
+//! The encoder writes clauses and never sees a solver. It starts from little (the goals, the lasso
+//! and who may talk to whom) and gets the rest as *demands*: keep this robot clear of that solid,
+//! clear this link, keep these two apart. A refutation of what is there refutes the whole.
+
+mod circuit;
+mod compare;
+mod justify;
+mod leaf;
+mod links;
+mod temporal;
+
+pub use circuit::Bit;
+pub use leaf::{Anywhere, Face, Leaf, Reach};
+pub use links::Link;
+
+use std::collections::{HashMap, HashSet};
+
+use rustsat::instances::Cnf;
+use rustsat::types::Lit;
+
+use crate::abstraction::{Abstraction, HalfSpace, Owner, SolidId, Stage};
+use crate::ir::{BaseId, Comparison, Problem, RegionId, RobotId};
+
+use circuit::{Circuit, Gate};
+use leaf::HalfSpaces;
+use links::StepLinks;
+use temporal::{Ask, Temporal};
+
+/// One end of what must be clear of a solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum End {
+    /// A robot's tube at a step.
+    Robot(RobotId, usize),
+    /// A base.
+    Base(BaseId),
+}
+
+/// What a search may switch on when the rest is refuted, each under an assumption of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Switch {
+    /// Separation by constraints on two robots at once.
+    Coupled,
+    /// Tangents from bases.
+    Tangents,
+    /// Oblique directions.
+    Oblique,
+}
+
+impl Switch {
+    /// All switches.
+    pub const ALL: [Switch; 3] = [Switch::Coupled, Switch::Tangents, Switch::Oblique];
+
+    fn of_stage(stage: Stage) -> Option<Switch> {
+        match stage {
+            Stage::Facets => None,
+            Stage::Tangents => Some(Switch::Tangents),
+            Stage::Oblique => Some(Switch::Oblique),
+        }
+    }
+}
+
+/// A disjunct whose meaning waits for a switch.
+#[derive(Clone, Debug)]
+enum Deferred {
+    Clear(SolidId, Vec<End>),
+    Apart(RobotId, RobotId, usize),
+}
+
+/// Counts for reports.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Half-space literals.
+    pub half_spaces: usize,
+    /// All variables.
+    pub variables: usize,
+    /// The variables that communication took.
+    pub connectivity: usize,
+    /// Clauses written.
+    pub clauses: usize,
+}
+
+/// The Boolean part of a problem.
+pub struct Encoder<'a> {
+    problem: &'a Problem,
+    abstraction: &'a Abstraction,
+    reach: Box<dyn Reach + 'a>,
+    circuit: Circuit,
+    half_spaces: HalfSpaces,
+    temporal: Temporal,
+    links: Vec<StepLinks>,
+    /// By position: it is the last one.
+    lasts: Vec<Lit>,
+    /// By length: the loop goes back to position k.
+    loops: Vec<Vec<Lit>>,
+    switches: [Lit; 3],
+    /// What waits for each switch; `None` once it has been switched on.
+    deferred: [Option<Vec<(Lit, Deferred)>>; 3],
+    atoms: HashMap<(RobotId, RegionId, usize), (Bit, Bit)>,
+    clears: HashMap<(SolidId, Vec<End>), Bit>,
+    apart: HashSet<(RobotId, RobotId, usize)>,
+    cuts: HashMap<(RobotId, RobotId, usize), Vec<f64>>,
+}
+
+impl<'a> Encoder<'a> {
+    /// An encoder with no position yet.
+    pub fn new(
+        problem: &'a Problem,
+        abstraction: &'a Abstraction,
+        reach: Box<dyn Reach + 'a>,
+    ) -> Encoder<'a> {
+        let mut circuit = Circuit::default();
+        let switches = Switch::ALL.map(|_| circuit.define(Gate::Choice));
+        Encoder {
+            problem,
+            abstraction,
+            reach,
+            half_spaces: HalfSpaces::new(problem),
+            temporal: Temporal::new(problem),
+            circuit,
+            links: Vec::new(),
+            lasts: Vec::new(),
+            loops: Vec::new(),
+            switches,
+            deferred: [const { Some(Vec::new()) }; 3],
+            atoms: HashMap::new(),
+            clears: HashMap::new(),
+            apart: HashSet::new(),
+            cuts: HashMap::new(),
+        }
+    }
+
+    /// Encodes the positions up to a length and closes its loops. Lengths come in rising order.
+    pub fn extend(&mut self, length: usize) {
+        while self.lasts.len() <= length {
+            self.add_position();
+        }
+        // A length that is never tried is none.
+        for skipped in self.loops.len()..length {
+            self.refute(skipped);
+        }
+        let last = self.lasts[length];
+        let loops: Vec<Lit> = (0..=length).map(|_| self.circuit.define(Gate::Choice)).collect();
+        for &back in &loops {
+            self.circuit.clause(&[!back, last]);
+        }
+        let mut some: Vec<Lit> = vec![!last];
+        some.extend(&loops);
+        self.circuit.clause(&some);
+        self.temporal.close(&mut self.circuit, last, &loops);
+        self.loops.resize(length, Vec::new());
+        self.loops.push(loops);
+    }
+
+    fn add_position(&mut self) {
+        let step = self.lasts.len();
+        let last = self.circuit.define(Gate::Choice);
+        if let Some(connectivity) = &self.problem.connectivity {
+            let hops = connectivity.hops.map_or(usize::MAX, |h| h as usize);
+            let (robots, bases) = (self.problem.robots.len(), self.problem.bases.len());
+            self.links.push(StepLinks::new(&mut self.circuit, robots, bases, hops));
+        }
+        let was_last = self.lasts.last().copied();
+        self.lasts.push(last);
+        let asks = self.temporal.asks();
+        let answers: Vec<Bit> = asks.into_iter().map(|ask| self.answer(ask, step)).collect();
+        let goals = self.temporal.extend(&mut self.circuit, was_last, &answers);
+        for goal in goals {
+            self.circuit.require(goal);
+        }
+    }
+
+    fn answer(&mut self, ask: Ask, step: usize) -> Bit {
+        match ask {
+            Ask::In(robot, region) => self.atom(robot, region, step).0,
+            Ask::Out(robot, region) => self.atom(robot, region, step).1,
+            Ask::Compare(comparison) => self.compare(&comparison, step),
+        }
+    }
+
+    fn compare(&mut self, comparison: &Comparison, step: usize) -> Bit {
+        let atoms: Vec<(Bit, Bit)> =
+            comparison.terms.iter().map(|(atom, _)| self.atom(atom.robot, atom.region, step)).collect();
+        compare::compare(&mut self.circuit, comparison, &atoms)
+    }
+
+    /// 'Certainly in' and 'certainly out'.
+    fn atom(&mut self, robot: RobotId, region: RegionId, step: usize) -> (Bit, Bit) {
+        if let Some(&bits) = self.atoms.get(&(robot, region, step)) {
+            return bits;
+        }
+        let model = self.problem.robots[robot].model;
+        let mut pieces = Vec::new();
+        for facets in self.abstraction.inside(model, region) {
+            let rows: Vec<Bit> = facets.iter().map(|f| self.half_space(robot, step, *f)).collect();
+            pieces.push(self.circuit.and(rows));
+        }
+        let inside = self.circuit.or(pieces);
+        let solids: Vec<SolidId> = self.abstraction.solids_of(Owner::Region(region)).collect();
+        let clear: Vec<Bit> = solids.iter().map(|&s| self.clear(s, vec![End::Robot(robot, step)])).collect();
+        let outside = self.circuit.and(clear);
+        self.atoms.insert((robot, region, step), (inside, outside));
+        (inside, outside)
+    }
+
+    fn half_space(&mut self, robot: RobotId, step: usize, half_space: HalfSpace) -> Bit {
+        let (abstraction, problem) = (self.abstraction, self.problem);
+        let at = (robot, step, half_space);
+        self.half_spaces.literal(&mut self.circuit, abstraction, problem, &mut *self.reach, at)
+    }
+
+    /// Some direction along which the hull of all ends lies below the solid.
+    fn clear(&mut self, solid: SolidId, ends: Vec<End>) -> Bit {
+        if let Some(&bit) = self.clears.get(&(solid, ends.clone())) {
+            return bit;
+        }
+        let bit = self.clear_from(Stage::Facets, solid, &ends);
+        self.clears.insert((solid, ends), bit);
+        bit
+    }
+
+    /// The disjunction over a stage's directions and whatever later stages bring.
+    fn clear_from(&mut self, stage: Stage, solid: SolidId, ends: &[End]) -> Bit {
+        let faces = &self.abstraction.solids[solid].faces;
+        let mut sides = Vec::new();
+        for &(_, direction) in faces.iter().filter(|(s, _)| *s == stage) {
+            let rows: Vec<Bit> = ends.iter().map(|end| self.below(*end, solid, direction)).collect();
+            sides.push(self.circuit.and(rows));
+        }
+        let later = faces.iter().map(|(s, _)| *s).filter(|s| *s > stage).min();
+        if let Some(switch) = later.and_then(Switch::of_stage) {
+            sides.push(self.defer(switch, Deferred::Clear(solid, ends.to_vec())));
+        }
+        self.circuit.or(sides)
+    }
+
+    fn below(&mut self, end: End, solid: SolidId, direction: crate::abstraction::DirectionId) -> Bit {
+        match end {
+            End::Robot(robot, step) => {
+                let model = self.problem.robots[robot].model;
+                let half_space = self.abstraction.below(model, solid, direction);
+                self.half_space(robot, step, half_space)
+            }
+            End::Base(base) => {
+                let point = self.abstraction.base(base);
+                Bit::from(self.abstraction.point_below(point, solid, direction))
+            }
+        }
+    }
+
+    /// A disjunct behind a switch.
+    fn defer(&mut self, switch: Switch, what: Deferred) -> Bit {
+        let lit = self.circuit.deferred_or(self.switches[switch as usize]);
+        match &mut self.deferred[switch as usize] {
+            Some(waiting) => waiting.push((lit, what)),
+            None => self.define_deferred(switch, lit, what),
+        }
+        Bit::Lit(lit)
+    }
+
+    fn define_deferred(&mut self, switch: Switch, lit: Lit, what: Deferred) {
+        let bit = match what {
+            Deferred::Clear(solid, ends) => {
+                let stage = if switch == Switch::Tangents { Stage::Tangents } else { Stage::Oblique };
+                self.clear_from(stage, solid, &ends)
+            }
+            Deferred::Apart(first, second, step) => self.faces(first, second, step),
+        };
+        self.circuit.resolve(lit, bit);
+    }
+
+    /// Gives everything behind a switch its meaning, now and in future.
+    pub fn open(&mut self, switch: Switch) {
+        for (lit, what) in self.deferred[switch as usize].take().unwrap_or_default() {
+            self.define_deferred(switch, lit, what);
+        }
+    }
+
+    /// The literal that lets a switch be used; assume its negation to keep it off.
+    pub fn switch(&self, switch: Switch) -> Lit {
+        self.switches[switch as usize]
+    }
+
+    /// Demands that a robot's move from a step to the next keeps clear of a solid.
+    pub fn demand_clear_move(&mut self, robot: RobotId, step: usize, solid: SolidId) {
+        let bit = self.clear(solid, vec![End::Robot(robot, step), End::Robot(robot, step + 1)]);
+        self.circuit.require(bit);
+    }
+
+    /// Demands that a link at a step, if it is used, keeps clear of a solid.
+    pub fn demand_clear_link(&mut self, link: Link, step: usize, solid: SolidId) {
+        let ends = match link {
+            Link::Robots(a, b) => vec![End::Robot(a, step), End::Robot(b, step)],
+            Link::Base(robot, base) => vec![End::Robot(robot, step), End::Base(base)],
+        };
+        let bit = self.clear(solid, ends);
+        let lit = self.links[step].literal(link);
+        self.circuit.grow(lit, bit);
+    }
+
+    /// Demands that two robots keep apart during a step.
+    ///
+    /// `cuts` are coordinates, one an axis, for each end of the step: the robots may stay on
+    /// different sides of them, which takes no constraint on both at once. The first cuts that a
+    /// pair and a step get are kept.
+    pub fn demand_apart(&mut self, first: RobotId, second: RobotId, step: usize, cuts: [Vec<f64>; 2]) {
+        if !self.apart.insert((first, second, step)) {
+            return;
+        }
+        for (at, cut) in cuts.into_iter().enumerate() {
+            self.cuts.entry((first, second, step + at)).or_insert(cut);
+        }
+        let mut sides = Vec::new();
+        for axis in 0..self.problem.dimension {
+            for positive in [true, false] {
+                let face = Face { first, second, step, axis, positive };
+                let here = self.cut(face);
+                let there = self.cut(Face { step: step + 1, ..face });
+                sides.push(self.circuit.and([here, there]));
+            }
+        }
+        sides.push(self.defer(Switch::Coupled, Deferred::Apart(first, second, step)));
+        let bit = self.circuit.or(sides);
+        self.circuit.require(bit);
+    }
+
+    /// Both robots on their sides of the cut, at the face's step alone.
+    fn cut(&mut self, face: Face) -> Bit {
+        let half = 0.5 * self.problem.separation.as_ref().map_or(0.0, |e| e.to_f64());
+        let cut = self.cuts[&(face.first, face.second, face.step)][face.axis];
+        let (above, below) =
+            if face.positive { (face.first, face.second) } else { (face.second, face.first) };
+        let mut side = |robot: RobotId, downwards: bool| {
+            let direction = self.abstraction.directions.axis(face.axis, downwards);
+            let model = self.problem.robots[robot].model;
+            let inset = half + self.abstraction.support(model, direction) + 0.5 * self.abstraction.gap;
+            let level = if downwards { cut } else { -cut };
+            self.half_space(robot, face.step, HalfSpace { direction, offset: level - inset })
+        };
+        let bits = [side(above, false), side(below, true)];
+        self.circuit.and(bits)
+    }
+
+    fn faces(&mut self, first: RobotId, second: RobotId, step: usize) -> Bit {
+        let mut faces = Vec::new();
+        for axis in 0..self.problem.dimension {
+            for positive in [true, false] {
+                let face = Face { first, second, step, axis, positive };
+                faces.push(Bit::Lit(self.circuit.define(Gate::Leaf(Leaf::Apart(face)))));
+            }
+        }
+        self.circuit.or(faces)
+    }
+
+    /// Adds a lemma: these leaves can't all be true, with this loop if one is named.
+    pub fn learn(&mut self, leaves: &[Lit], lasso: Option<(usize, usize)>) {
+        let mut clause: Vec<Lit> = leaves.iter().map(|l| !*l).collect();
+        clause.extend(lasso.map(|(length, back)| !self.loops[length][back]));
+        self.circuit.clause(&clause);
+    }
+
+    /// The clauses written since the last call.
+    pub fn take_clauses(&mut self) -> Cnf {
+        self.circuit.take_clauses()
+    }
+
+    /// The literal 'this position is the last one'.
+    pub fn last(&self, length: usize) -> Lit {
+        self.lasts[length]
+    }
+
+    /// Rules a length out for good.
+    pub fn refute(&mut self, length: usize) {
+        self.circuit.clause(&[!self.lasts[length]]);
+    }
+
+    /// Where the loop of a model goes back to.
+    pub fn loop_start(&self, truth: &dyn Fn(Lit) -> bool, length: usize) -> Option<usize> {
+        self.loops[length].iter().position(|&l| truth(l))
+    }
+
+    /// The leaves that a model's truth rests on.
+    pub fn justify(&self, truth: &dyn Fn(Lit) -> bool, length: usize, back: usize) -> Justification {
+        let (leaves, seen) = justify::justify(&self.circuit, truth, length, back);
+        let used = |step: usize| -> Vec<Link> {
+            let links = self.links.get(step).into_iter().flat_map(StepLinks::iter);
+            links.filter(|(_, lit)| seen[lit.vidx()]).map(|(link, _)| link).collect()
+        };
+        let links = (0..=length).map(used).collect();
+        let leaf = |lit: Lit| match self.circuit.gate(lit) {
+            Gate::Leaf(leaf) => Some((lit, *leaf)),
+            _ => None,
+        };
+        Justification { leaves: leaves.into_iter().filter_map(leaf).collect(), links }
+    }
+
+    /// The half-space literals along a direction, offsets rising.
+    pub fn parallel(&self, robot: RobotId, step: usize, half_space: HalfSpace) -> &[(f64, Lit)] {
+        self.half_spaces.along(robot, step, half_space.direction)
+    }
+
+    /// Whether a definition had to be strengthened, so that a refutation says nothing.
+    pub fn is_incomplete(&self) -> bool {
+        self.circuit.is_incomplete()
+    }
+
+    /// Counts for reports.
+    pub fn counts(&self) -> Counts {
+        Counts {
+            half_spaces: self.half_spaces.len(),
+            variables: self.circuit.variables(),
+            connectivity: self.links.iter().map(|l| l.variables).sum(),
+            clauses: self.circuit.clauses(),
+        }
+    }
+}
+
+/// What a model's truth rests on.
+#[derive(Clone, Debug)]
+pub struct Justification {
+    /// The constraints of the convex part, with their literals.
+    pub leaves: Vec<(Lit, Leaf)>,
+    /// By step: the links in use.
+    pub links: Vec<Vec<Link>>,
+}

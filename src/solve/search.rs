@@ -1,0 +1,290 @@
+//! The loop between the Boolean and the convex part.
+
+use std::collections::HashSet;
+use std::time::Duration;
+
+use rustsat::types::{Lit, Var};
+
+use crate::abstraction::Abstraction;
+use crate::encode::{Anywhere, Encoder, Justification, Switch};
+use crate::entity::Table;
+use crate::ir::{ModelId, Problem, RobotId};
+use crate::plan::Nominal;
+use crate::tube::Tubes;
+
+use super::clearance::{Scene, Violation};
+use super::convex::System;
+use super::lemma::Lemma;
+use super::robots::{Refusal, Robots, Trajectory, systems};
+use super::sat::{Answer, Model, Sat};
+use super::{Options, Outcome, Progress, Reason, Statistics};
+
+/// A search over the lengths of the horizon.
+pub struct Search<'a> {
+    problem: &'a Problem,
+    abstraction: &'a Abstraction,
+    options: &'a Options,
+    systems: Table<ModelId, System>,
+    statistics: Statistics,
+}
+
+/// How a length ended.
+enum End {
+    Found(Box<Nominal>),
+    Refuted,
+    /// Refuted for reasons that hold for every length.
+    AllRefuted,
+    Undecided,
+    Stopped,
+}
+
+impl<'a> Search<'a> {
+    /// A search that hasn't begun.
+    pub fn new(
+        problem: &'a Problem,
+        tubes: &Tubes,
+        abstraction: &'a Abstraction,
+        options: &'a Options,
+    ) -> Search<'a> {
+        let systems = systems(problem, tubes, abstraction);
+        Search { problem, abstraction, options, systems, statistics: Statistics::default() }
+    }
+
+    /// Tries the lengths in rising order.
+    pub fn run(mut self) -> (Outcome, Statistics) {
+        let mut encoder = Encoder::new(self.problem, self.abstraction, Box::new(Anywhere));
+        let mut sat = Sat::new(self.options.watch.clone());
+        let mut undecided = false;
+        let (from, to) = self.options.horizon;
+        let systems = std::mem::take(&mut self.systems);
+        let mut outcome = None;
+        for length in from..=to {
+            self.statistics.length = length;
+            let robots = Robots::new(self.problem, self.abstraction, &systems, length);
+            let mut attempt = Attempt {
+                search: &mut self,
+                encoder: &mut encoder,
+                sat: &mut sat,
+                robots,
+                length,
+                closed: Switch::ALL.to_vec(),
+                demanded: HashSet::new(),
+                undecided: false,
+            };
+            match attempt.run() {
+                End::Found(found) => {
+                    let shortest = !undecided;
+                    outcome = Some(Outcome::Plan(Box::new(Nominal { shortest, ..*found })));
+                }
+                End::Stopped => outcome = Some(Outcome::Unknown(Reason::Stopped)),
+                End::AllRefuted if !undecided => outcome = Some(Outcome::NoPlan),
+                End::AllRefuted | End::Refuted => {}
+                End::Undecided => undecided = true,
+            }
+            if outcome.is_some() {
+                break;
+            }
+            encoder.refute(length);
+        }
+        let end = if undecided { Outcome::Unknown(Reason::Numerics) } else { Outcome::NoPlan };
+        self.count(&encoder, &sat);
+        (outcome.unwrap_or(end), self.statistics)
+    }
+
+    fn count(&mut self, encoder: &Encoder<'_>, sat: &Sat) {
+        let counts = encoder.counts();
+        self.statistics.half_spaces = counts.half_spaces;
+        self.statistics.bool_vars = counts.variables;
+        self.statistics.bool_vars_connectivity = counts.connectivity;
+        self.statistics.clauses = counts.clauses;
+        self.statistics.sat_calls = sat.calls;
+    }
+
+    fn now(&self) -> Duration {
+        self.options.watch.now()
+    }
+}
+
+/// The search at one length.
+struct Attempt<'s, 'p, 'e> {
+    search: &'e mut Search<'p>,
+    encoder: &'e mut Encoder<'p>,
+    sat: &'e mut Sat,
+    robots: Robots<'s>,
+    length: usize,
+    /// The switches that are still off.
+    closed: Vec<Switch>,
+    demanded: HashSet<String>,
+    undecided: bool,
+}
+
+impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
+    fn run(&mut self) -> End {
+        let start = self.search.now();
+        self.encoder.extend(self.length);
+        self.search.statistics.time_encode += self.search.now() - start;
+        loop {
+            let watch = &self.search.options.watch;
+            if watch.stop() {
+                return End::Stopped;
+            }
+            let statistics = &self.search.statistics;
+            let (candidates, lemmas) = (statistics.candidates, statistics.lemmas);
+            watch.progress(&Progress { length: self.length, candidates, lemmas });
+            match self.query() {
+                Answer::Interrupted => return End::Stopped,
+                Answer::Core(core) => {
+                    if let Some(end) = self.refuted(&core) {
+                        return end;
+                    }
+                }
+                Answer::Model(model) => {
+                    if let Some(found) = self.candidate(&model) {
+                        return End::Found(Box::new(found));
+                    }
+                }
+            }
+        }
+    }
+
+    fn query(&mut self) -> Answer {
+        let start = self.search.now();
+        let mut assumptions = vec![self.encoder.last(self.length)];
+        assumptions.extend(self.closed.iter().map(|s| !self.encoder.switch(*s)));
+        let answer = if self.sat.add(self.encoder.take_clauses()) {
+            self.sat.query(&assumptions)
+        } else {
+            Answer::Interrupted
+        };
+        self.search.statistics.time_sat += self.search.now() - start;
+        answer
+    }
+
+    /// Opens the next switch that the refutation rests on, or ends the length.
+    fn refuted(&mut self, core: &[Var]) -> Option<End> {
+        let blamed = self.closed.iter().position(|s| core.contains(&self.encoder.switch(*s).var()));
+        if let Some(at) = blamed {
+            let switch = self.closed.remove(at);
+            let start = self.search.now();
+            self.encoder.open(switch);
+            self.search.statistics.time_encode += self.search.now() - start;
+            return None;
+        }
+        if self.undecided || self.encoder.is_incomplete() {
+            return Some(End::Undecided);
+        }
+        let rests_on_length = core.contains(&self.encoder.last(self.length).var());
+        Some(if rests_on_length { End::Refuted } else { End::AllRefuted })
+    }
+
+    /// Tries a model: learns from it, demands more, or ends with a plan.
+    fn candidate(&mut self, model: &Model) -> Option<Nominal> {
+        self.search.statistics.candidates += 1;
+        let truth = |lit: Lit| model.holds(lit);
+        let back = self.encoder.loop_start(&truth, self.length)?;
+        let justification = self.encoder.justify(&truth, self.length, back);
+        let start = self.search.now();
+        let decided = self.robots.decide(&justification.leaves, back);
+        self.search.statistics.convex_calls += std::mem::take(&mut self.robots.calls);
+        let result = match decided {
+            Err(refusals) => {
+                refusals.iter().for_each(|refusal| self.learn(refusal, back));
+                None
+            }
+            Ok(trajectories) => Some(trajectories),
+        };
+        self.search.statistics.time_convex += self.search.now() - start;
+        let trajectories = result?;
+        let start = self.search.now();
+        let violations = self.violations(&trajectories, &justification);
+        self.search.statistics.time_geometry += self.search.now() - start;
+        if violations.is_empty() {
+            return Some(self.found(&trajectories, back, justification));
+        }
+        let start = self.search.now();
+        self.demand(violations, &justification, back);
+        self.search.statistics.time_encode += self.search.now() - start;
+        None
+    }
+
+    fn violations(&self, z: &Table<RobotId, Trajectory>, justification: &Justification) -> Vec<Violation> {
+        let scene = Scene::new(self.search.problem, self.search.abstraction, z, self.length);
+        scene.violations(&justification.links)
+    }
+
+    /// Adds the lemma of a refused cluster, and the same at other times and for other robots.
+    fn learn(&mut self, refusal: &Refusal, back: usize) {
+        let lits: Vec<Lit> = refusal.constraints.iter().map(|(lit, _)| *lit).collect();
+        let Some(conflict) = &refusal.conflict else {
+            // Its literals forbid every superset, so a refutation says nothing any more.
+            self.undecided = true;
+            self.encoder.learn(&lits, Some((self.length, back)));
+            return;
+        };
+        let members: Vec<_> = refusal.robots.iter().map(|r| self.robots.member(*r)).collect();
+        let (problem, abstraction) = (self.search.problem, self.search.abstraction);
+        let lemma = Lemma::new(conflict, problem, abstraction, self.encoder, &members);
+        self.search.statistics.lemmas += 1;
+        let own: Vec<Lit> = lemma.rows.iter().map(|row| row.lit).collect();
+        self.encoder.learn(&own, lemma.lasso);
+        if lemma.shiftable {
+            self.learn_shifted(&lemma, refusal.robots[0]);
+        }
+    }
+
+    fn learn_shifted(&mut self, lemma: &Lemma, robot: RobotId) {
+        let Some((first, last)) = lemma.span() else { return };
+        let robots = &self.search.problem.robots;
+        let same: Vec<RobotId> = robots.ids().filter(|r| robots[*r].model == robots[robot].model).collect();
+        for other in same {
+            for to in 1..=(self.length + 1).saturating_sub(last - first) {
+                if other == robot && to == first {
+                    continue;
+                }
+                if let Some(lits) = lemma.shifted(self.encoder, other, first, to) {
+                    self.encoder.learn(&lits, None);
+                    self.search.statistics.lemmas += 1;
+                }
+            }
+        }
+    }
+
+    fn demand(&mut self, violations: Vec<Violation>, justification: &Justification, back: usize) {
+        let mut new = false;
+        for violation in violations {
+            let key = match &violation {
+                Violation::Apart(a, b, t, _) => format!("{a} {b} {t}"),
+                other => format!("{other:?}"),
+            };
+            new |= self.demanded.insert(key);
+            match violation {
+                Violation::Move(robot, step, solid) => self.encoder.demand_clear_move(robot, step, solid),
+                Violation::Link(link, step, solid) => self.encoder.demand_clear_link(link, step, solid),
+                Violation::Apart(first, second, step, cuts) => {
+                    self.encoder.demand_apart(first, second, step, cuts);
+                }
+            }
+        }
+        if !new {
+            // What was demanded holds and yet is violated: the numbers don't carry this candidate.
+            self.undecided = true;
+            let lits: Vec<Lit> = justification.leaves.iter().map(|(lit, _)| *lit).collect();
+            self.encoder.learn(&lits, Some((self.length, back)));
+        }
+    }
+
+    fn found(&self, z: &Table<RobotId, Trajectory>, back: usize, justification: Justification) -> Nominal {
+        let rows = |steps: &[nalgebra::DVector<f64>]| -> Vec<Vec<f64>> {
+            steps.iter().take(self.length + 1).map(|v| v.iter().copied().collect()).collect()
+        };
+        let connected = self.search.problem.connectivity.is_some();
+        Nominal {
+            length: self.length,
+            loop_start: back,
+            states: z.values().map(|t| rows(&t.states)).collect(),
+            inputs: z.values().map(|t| rows(&t.inputs)).collect(),
+            links: if connected { justification.links } else { Vec::new() },
+            shortest: true,
+        }
+    }
+}
