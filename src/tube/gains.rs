@@ -100,11 +100,34 @@ fn reason(scaled: &Scaled, beta: f64, longest: usize) -> NoGains {
     if let Ok(gains) = gains_of_length(scaled, longest, Aim::Inputs) {
         return NoGains::Inputs { share: gains.share };
     }
-    let Ok(gains) = gains_of_length(scaled, longest, Aim::States { beta }) else { return NoGains::Bounds };
-    let used = Chain::new(scaled, longest).half_widths(&gains.m);
-    let share = |i: usize| scaled.state_bounds[i].map_or(0.0, |(lo, hi)| 2.0 * used.0[i] / (hi - lo));
-    let state = (0..used.0.len()).max_by(|&i, &j| share(i).total_cmp(&share(j))).unwrap_or(0);
+    if let Ok(gains) = gains_of_length(scaled, longest, Aim::States { beta }) {
+        let chain = Chain::new(scaled, longest);
+        return widest_state(scaled, &chain.half_widths(&gains.m).0);
+    }
+    if scaled.mixed.is_empty() { reason_of_least_norm(scaled, beta, longest) } else { NoGains::Bounds }
+}
+
+/// The state whose error takes the largest share of its bound.
+fn widest_state(scaled: &Scaled, used: &[f64]) -> NoGains {
+    let share = |i: usize| scaled.state_bounds[i].map_or(0.0, |(lo, hi)| 2.0 * used[i] / (hi - lo));
+    let state = (0..used.len()).max_by(|&i, &j| share(i).total_cmp(&share(j))).unwrap_or(0);
     NoGains::State { state, share: share(state) }
+}
+
+/// The bound that the gains of least norm break: what is left to say where states and inputs are
+/// both too narrow, or where a program found no point for numerical reasons.
+fn reason_of_least_norm(scaled: &Scaled, beta: f64, longest: usize) -> NoGains {
+    let chain = Chain::new(scaled, longest);
+    let (states, inputs) = chain.half_widths(&chain.least_norm());
+    let shares = inputs.iter().zip(&scaled.input_bounds).map(|(h, (lo, hi))| 2.0 * h / (hi - lo));
+    let share = shares.fold(0.0, f64::max);
+    if share > beta && share.is_finite() {
+        return NoGains::Inputs { share };
+    }
+    match widest_state(scaled, &states) {
+        state @ NoGains::State { share, .. } if share > STATE_ROOM && share.is_finite() => state,
+        _ => NoGains::Numerics,
+    }
 }
 
 fn gains_of_length(scaled: &Scaled, k: usize, aim: Aim) -> Result<Gains, NoGains> {
@@ -132,10 +155,29 @@ fn gains_of_length(scaled: &Scaled, k: usize, aim: Aim) -> Result<Gains, NoGains
         return Err(NoGains::Numerics);
     }
     let (states, inputs) = chain.half_widths(&m);
+    if !keeps_bounds(scaled, aim, &states, &inputs) {
+        return Err(NoGains::Numerics);
+    }
     let cost = states.iter().zip(&scaled.position_weight).map(|(h, w)| h * w).sum();
     let share = inputs.iter().zip(&scaled.input_bounds).map(|(h, (lo, hi))| 2.0 * h / (hi - lo));
     let share = share.filter(|s| !s.is_nan()).fold(0.0, f64::max);
     Ok(Gains { m, cost, share })
+}
+
+/// Whether the gains keep the bounds of their program after the last digits were mended: where the
+/// inputs hardly tell two states apart, mending takes more than they have.
+fn keeps_bounds(scaled: &Scaled, aim: Aim, states: &[f64], inputs: &[f64]) -> bool {
+    let beta = match aim {
+        Aim::Position { beta } | Aim::States { beta } => beta,
+        Aim::Inputs => f64::INFINITY,
+    };
+    let within =
+        |used: &f64, (lo, hi): (f64, f64), share: f64| *used <= share * (hi - lo) / 2.0 * (1.0 + 1e-6);
+    let bounded = |(used, bounds): (&f64, &Option<(f64, f64)>)| {
+        matches!(aim, Aim::States { .. }) || bounds.is_none_or(|b| within(used, b, 1.0))
+    };
+    states.iter().zip(&scaled.state_bounds).all(bounded)
+        && (beta.is_infinite() || inputs.iter().zip(&scaled.input_bounds).all(|(u, b)| within(u, *b, beta)))
 }
 
 /// A block with a length of memory, and what linear algebra says of it.

@@ -11,6 +11,9 @@ const FLOOR: f64 = 1e-9;
 /// term that is summed. Generous: four operations a term would do.
 const OPERATIONS: f64 = 64.0;
 
+/// The share of a state's extent that rounding must not reach.
+const DROWNED: f64 = 1e-4;
+
 /// The box Θ' around 0 and what of it is reserved.
 #[derive(Clone, Debug)]
 pub(super) struct Enlarged {
@@ -18,6 +21,8 @@ pub(super) struct Enlarged {
     pub(super) half_width: Vec<f64>,
     /// The controller's share, all positive.
     pub(super) reserve: Vec<f64>,
+    /// The states of which rounding alone takes a visible share of the extent.
+    pub(super) drowned: Vec<usize>,
 }
 
 /// How large the numbers of a model get: the basis of its rounding errors.
@@ -42,7 +47,9 @@ pub(super) fn enlarge(problem: &Problem, id: ModelId) -> Enlarged {
         let margin = (RELATIVE * theta).max(FLOOR * magnitudes.extent[i]).max(8.0 * reserve[i]);
         theta + margin + 2.0 * uncertain[i]
     };
-    Enlarged { half_width: (0..model.n()).map(width).collect(), reserve }
+    let half_width = (0..model.n()).map(width).collect();
+    let drowned = (0..model.n()).filter(|&i| reserve[i] > DROWNED * magnitudes.extent[i]).collect();
+    Enlarged { half_width, reserve, drowned }
 }
 
 /// A bound on what rounding adds to each component of ŵ: the errors of e and u, through A and B.

@@ -99,6 +99,9 @@ fn tube_of(problem: &Problem, id: ModelId) -> Result<Tube, Failure> {
     if let Some(block) = blocks.iter().find(|b| !block::can_be_brought_to_zero(model, b)) {
         return Err(Failure::Uncontrollable { states: block.states.clone() });
     }
+    if !enlarged.drowned.is_empty() {
+        return Err(Failure::Numerics { states: enlarged.drowned });
+    }
     let (beta, gains) = choose_share(model, &blocks)?;
     let mut tube = assemble(model, &blocks, &gains, enlarged, beta);
     close(model, &mut tube)?;

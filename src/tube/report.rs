@@ -181,13 +181,13 @@ impl Place<'_> {
 
     fn numerics(&self, states: &[usize]) -> Diagnostic {
         let diagnostic = Diagnostic::error(
-            "dosm::tube::barely_controllable",
+            "dosm::tube::badly_conditioned",
             format!("`{}` is too badly conditioned for a tube", self.model.name),
             self.spans.input_matrix,
-            format!("the inputs hardly reach {}", self.state_list(states)),
+            format!("too large or too small entries for {}", self.state_list(states)),
         );
         self.with_disturbances(diagnostic).with_help(
-            "the gains are so large that rounding alone exceeds the disturbance: check A and B, their units, and `step`",
+            "rounding errors, as A and B magnify them, are no longer small: check A, B and their units, or take a shorter `step`",
         )
     }
 }
