@@ -2,12 +2,19 @@
 //!
 //! Nothing here reads a file, looks at the clock or prints.
 
-use crate::abstraction;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::abstraction::{self, Abstraction};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::ir::{self, Problem, Spans, Violation};
 use crate::lower;
-use crate::plan::Plan;
+use crate::plan::{self, Nominal, Plan};
+use crate::solve::{self, Outcome, Reason, Statistics, Watch};
 use crate::source::{SourceFile, Span};
 use crate::syntax;
 use crate::tube::{self, Tubes};
@@ -69,9 +76,140 @@ pub fn load(
     diagnostics: &mut Diagnostics,
 ) -> Result<Mission, Reported> {
     let (problem, spans) = problem(source, overrides, diagnostics)?;
+    prepare(problem, spans, diagnostics)
+}
+
+/// Makes the tubes of a problem, and looks at its first step.
+///
+/// # Errors
+/// [`Reported`] when a model has no tube, or the mission is lost at its first step.
+pub fn prepare(problem: Problem, spans: Spans, diagnostics: &mut Diagnostics) -> Result<Mission, Reported> {
     let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
     abstraction::inspect(&problem, &spans, &tubes, diagnostics)?;
     Ok(Mission { problem, spans, tubes })
+}
+
+/// How a search for a plan that checks ended.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// With a plan that the exact check has accepted.
+    Plan {
+        /// The plan.
+        plan: Box<Plan>,
+        /// Whether all shorter lengths of the horizon are refuted.
+        shortest: bool,
+    },
+    /// Without one, in this scope.
+    NoPlan(Scope),
+    /// Without an answer.
+    Unknown(Reason),
+    /// With a plan that the exact check refuses, however wide the margins.
+    Refused(Box<Report>),
+}
+
+/// What 'no plan' holds for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scope {
+    /// By model: the share of the inputs that the feedback was allowed.
+    pub beta: BTreeMap<String, f64>,
+    /// By model: the tube's half-widths along the coordinates, in metres.
+    pub half_widths: BTreeMap<String, Vec<f64>>,
+    /// How many directions separating planes could have.
+    pub directions: usize,
+}
+
+/// An answer with the costs of finding it.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The answer.
+    pub answer: Answer,
+    /// The search's own counts and times.
+    pub statistics: Statistics,
+    /// Time spent in the exact check.
+    pub time_verify: Duration,
+}
+
+/// How much wider the margins are at each attempt, when the exact check refuses a plan.
+const BACKOFFS: [f64; 3] = [1.0, 10.0, 100.0];
+
+/// Looks for the shortest plan, and gives none out that the exact check has not accepted.
+pub fn solve(mission: &Mission, watch: &Arc<dyn Watch>) -> Solved {
+    let mut refused = None;
+    let mut spent = Statistics::default();
+    let mut time_verify = Duration::ZERO;
+    for backoff in BACKOFFS {
+        let (attempt, statistics) = attempt(mission, watch, backoff, &mut time_verify);
+        spent = statistics;
+        let answer = match attempt {
+            Attempt::Refused(report) => {
+                refused = report.or(refused);
+                continue;
+            }
+            // With wider margins a length may be lost: this proves nothing about the mission.
+            Attempt::Answer(Answer::NoPlan(_)) if backoff > BACKOFFS[0] => break,
+            Attempt::Answer(answer) => answer,
+        };
+        return Solved { answer, statistics: spent, time_verify };
+    }
+    let answer = refused.map_or(Answer::Unknown(Reason::Numerics), Answer::Refused);
+    Solved { answer, statistics: spent, time_verify }
+}
+
+/// One search and what the exact check says of it.
+enum Attempt {
+    Answer(Answer),
+    /// The plan found does not check, or its witnesses could not be found again.
+    Refused(Option<Box<Report>>),
+}
+
+fn attempt(
+    mission: &Mission,
+    watch: &Arc<dyn Watch>,
+    backoff: f64,
+    time_verify: &mut Duration,
+) -> (Attempt, Statistics) {
+    let Mission { problem, tubes, .. } = mission;
+    let started = watch.now();
+    let abstraction = Abstraction::new(problem, tubes, backoff);
+    let time_abstraction = watch.now().saturating_sub(started);
+    let options = solve::Options { horizon: problem.horizon, watch: Arc::clone(watch) };
+    let (outcome, mut statistics) = solve::solve(problem, tubes, &abstraction, &options);
+    statistics.time_geometry += time_abstraction;
+    let attempt = match outcome {
+        Outcome::NoPlan => Attempt::Answer(Answer::NoPlan(scope(mission, &abstraction))),
+        Outcome::Unknown(reason) => Attempt::Answer(Answer::Unknown(reason)),
+        Outcome::Plan(nominal) => {
+            let started = watch.now();
+            let attempt = proved(mission, &abstraction, &nominal);
+            *time_verify += watch.now().saturating_sub(started);
+            attempt
+        }
+    };
+    (attempt, statistics)
+}
+
+/// A nominal plan with its witnesses, if the exact check accepts it.
+fn proved(mission: &Mission, abstraction: &Abstraction, nominal: &Nominal) -> Attempt {
+    let Some(plan) = plan::extract(&mission.problem, &mission.tubes, abstraction, nominal) else {
+        return Attempt::Refused(None);
+    };
+    let report = verify::verify(&mission.problem, &plan);
+    if report.holds() {
+        Attempt::Answer(Answer::Plan { plan: Box::new(plan), shortest: nominal.shortest })
+    } else {
+        Attempt::Refused(Some(Box::new(report)))
+    }
+}
+
+fn scope(mission: &Mission, abstraction: &Abstraction) -> Scope {
+    let models = || mission.problem.models.values().zip(mission.tubes.values());
+    Scope {
+        beta: models().map(|(m, t)| (m.name.clone(), t.beta)).collect(),
+        half_widths: models()
+            .map(|(m, t)| (m.name.clone(), m.position.iter().map(|&s| t.state_half_width(s)).collect()))
+            .collect(),
+        directions: abstraction.directions.len(),
+    }
 }
 
 /// Checks a plan against a problem, in exact arithmetic.

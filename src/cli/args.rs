@@ -82,6 +82,20 @@ Exit status: 0 no errors, 1 a file can't be read, 2 errors.")]
         #[arg(required = true, value_name = "MISSION")]
         missions: Vec<PathBuf>,
     },
+    /// Look for the shortest plan, check it exactly, and write it down
+    #[command(
+        after_help = "DIR gets plan.json, the plan with a witness for everything that it claims, and plan.svg, its \
+picture. They are written whole or not at all, and only for a plan that was checked.\n\n\
+Exit status: 0 plan found and checked, 1 usage or files, 2 errors in the mission, 3 no plan, 4 unknown, 5 the plan found \
+does not check.\n\nExample:  dosmc solve examples/paper/fig2-4.dosm -o out --set robots=4 --timeout 1min"
+    )]
+    Solve {
+        /// The mission; `-` is standard input
+        mission: PathBuf,
+        /// Where to write the plan; created where needed
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+    },
     /// Check a plan against its mission, in exact arithmetic, believing nothing
     #[command(
         after_help = "Give the same `--set`s as when the plan was made. The verdict comes from the checks alone; that \

@@ -1,6 +1,7 @@
 //! Opening the missions that a command line names.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use super::output::Output;
 use super::{Status, files};
@@ -56,6 +57,26 @@ pub fn problem_or_fail(path: &Path, overrides: &Overrides, output: &Output) -> R
     let mut diagnostics = Diagnostics::new();
     let problem = driver::problem(&source, overrides, &mut diagnostics);
     told(problem, &source, &sorted(&diagnostics), output).map(|(problem, _)| problem)
+}
+
+/// Loads a mission, and says what is wrong with it; with the time that its tubes took.
+///
+/// # Errors
+/// The command's status when there is something wrong, which was said.
+pub fn load_or_fail(
+    source: &SourceFile,
+    overrides: &Overrides,
+    output: &Output,
+) -> Result<(Mission, Duration), Status> {
+    let mut diagnostics = Diagnostics::new();
+    let mut time_tube = Duration::ZERO;
+    let loaded = driver::problem(source, overrides, &mut diagnostics).and_then(|(problem, spans)| {
+        let started = Instant::now();
+        let mission = driver::prepare(problem, spans, &mut diagnostics);
+        time_tube = started.elapsed();
+        mission
+    });
+    told(loaded, source, &sorted(&diagnostics), output).map(|mission| (mission, time_tube))
 }
 
 /// Reads a mission's text, and says why when that fails.

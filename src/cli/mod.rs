@@ -11,6 +11,9 @@ mod files;
 mod mission;
 mod new;
 mod output;
+mod overseer;
+mod solve;
+mod stats;
 mod time;
 mod verify;
 
@@ -66,6 +69,9 @@ fn run(args: Args) -> Status {
     }
     match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, &output),
+        Command::Solve { mission, output: directory } => {
+            solve::solve(&mission, &directory, &overrides, args.common.timeout, &output)
+        }
         Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
         Command::New { name } => new::new(&name, &output),
     }

@@ -1,0 +1,198 @@
+//! `dosmc solve`: from a mission to files.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::files::OutputDirectory;
+use super::output::Output;
+use super::overseer::{Cause, LastWords, Overseer};
+use super::stats::JsonStats;
+use super::{Status, mission};
+use crate::back::{Artifact, svg};
+use crate::diag::printable;
+use crate::driver::{self, Answer, Overrides, Scope, Solved};
+use crate::plan::{self, Plan};
+use crate::solve::{Progress, Reason, Watch};
+
+/// What `solve --json` prints.
+#[derive(Serialize)]
+struct JsonSolve {
+    /// `plan`, `no_plan`, `unknown` or `error`.
+    status: &'static str,
+    length: Option<usize>,
+    loop_start: Option<usize>,
+    shortest: bool,
+    time_s: f64,
+    stats: JsonStats,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scope: Option<Scope>,
+    /// For `unknown`: `timeout`, `interrupt`, `numerics`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+    /// For `unknown`: the length that was being tried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reached: Option<usize>,
+    /// For a plan: the files written.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
+    /// For a plan that was found but refused by the exact check: what it refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    report: Option<serde_json::Value>,
+}
+
+impl JsonSolve {
+    fn new(status: &'static str, time: Duration, stats: JsonStats) -> JsonSolve {
+        JsonSolve {
+            status,
+            length: None,
+            loop_start: None,
+            shortest: false,
+            time_s: time.as_secs_f64(),
+            stats,
+            scope: None,
+            reason: None,
+            reached: None,
+            files: Vec::new(),
+            report: None,
+        }
+    }
+}
+
+/// Plans a mission and writes the plan and its picture into a directory.
+pub fn solve(
+    path: &Path,
+    directory: &Path,
+    overrides: &Overrides,
+    timeout: Option<Duration>,
+    output: &Output,
+) -> Status {
+    let directory = match OutputDirectory::probe(directory) {
+        Ok(directory) => directory,
+        Err(problem) => return output.fail(problem),
+    };
+    let source = match mission::open_or_fail(path, output) {
+        Ok(source) => source,
+        Err(status) => return status,
+    };
+    let overseer = Overseer::start(timeout, !output.quiet, last_words(output.clone()));
+    let (loaded, time_tube) = match mission::load_or_fail(&source, overrides, output) {
+        Ok(loaded) => loaded,
+        Err(status) => {
+            overseer.close();
+            return status;
+        }
+    };
+    let watch: Arc<dyn Watch> = Arc::<Overseer>::clone(&overseer);
+    let solved = driver::solve(&loaded, &watch);
+    overseer.close();
+    let stats = JsonStats::new(&loaded, &solved, time_tube);
+    answer(solved, stats, &loaded, &directory, &overseer, output).unwrap_or_else(|status| status)
+}
+
+/// Writes what came out, and says so.
+fn answer(
+    solved: Solved,
+    stats: JsonStats,
+    mission: &driver::Mission,
+    directory: &OutputDirectory,
+    overseer: &Overseer,
+    output: &Output,
+) -> Result<Status, Status> {
+    if output.verbose > 0 {
+        output.note(&stats.to_string());
+    }
+    let json = |status| JsonSolve::new(status, overseer.elapsed(), stats.clone());
+    match solved.answer {
+        Answer::Plan { plan, shortest } => {
+            let artifacts = artifacts(mission, &plan);
+            let files = directory.write(&artifacts).map_err(|problem| output.fail(problem))?;
+            let files: Vec<String> = files.iter().map(|f| f.to_string_lossy().into_owned()).collect();
+            output.say(&found(&plan, shortest, &files))?;
+            let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
+            output.json(&JsonSolve { length, loop_start, shortest, files, ..json("plan") })?;
+            Ok(Status::Done)
+        }
+        Answer::NoPlan(scope) => {
+            output.say(&no_plan(mission, &scope))?;
+            output.json(&JsonSolve { scope: Some(scope), ..json("no_plan") })?;
+            Ok(Status::NoPlan)
+        }
+        Answer::Unknown(reason) => {
+            let (name, why) = why_unknown(reason, overseer.cause());
+            let reached = overseer.reached().length;
+            output.say(&unknown(why, reached, overseer.elapsed()))?;
+            output.json(&JsonSolve { reason: Some(name), reached: Some(reached), ..json("unknown") })?;
+            Ok(Status::Unknown)
+        }
+        Answer::Refused(report) => {
+            output.say(&format!(
+                "the plan that was found does not check exactly, and wider margins did not help:\n{}",
+                printable(&report.to_string())
+            ))?;
+            output.json(&JsonSolve { report: Some(report.to_json()), ..json("error") })?;
+            Ok(Status::Refused)
+        }
+    }
+}
+
+/// The files of a plan, the plan itself last: where it is, all is.
+fn artifacts(mission: &driver::Mission, plan: &Plan) -> Vec<Artifact> {
+    let picture = svg::draw(&mission.problem, plan);
+    vec![picture, Artifact { name: "plan.json".into(), contents: plan::json::write(plan) }]
+}
+
+fn found(plan: &Plan, shortest: bool, files: &[String]) -> String {
+    let (length, again) = (plan.length, plan.loop_start);
+    let rank = if shortest {
+        "no shorter one exists for its tube and directions"
+    } else {
+        "a shorter one may exist"
+    };
+    format!(
+        "plan: length {length}, then again from step {again}; checked exactly; {rank}\n  {}",
+        printable(&files.join("\n  "))
+    )
+}
+
+fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {
+    let (from, to) = mission.problem.horizon;
+    let widths: Vec<String> =
+        scope.half_widths.iter().map(|(name, w)| format!("{name} ±({})", list(w))).collect();
+    format!(
+        "no plan of any length in {from}..{to}\n  for tubes of {} (metres), rejection {}, and {} separating directions",
+        printable(&widths.join(", ")),
+        list(&scope.beta.values().copied().collect::<Vec<_>>()),
+        scope.directions
+    )
+}
+
+fn list(numbers: &[f64]) -> String {
+    numbers.iter().map(|x| format!("{x:.3}")).collect::<Vec<_>>().join(", ")
+}
+
+fn why_unknown(reason: Reason, cause: Option<Cause>) -> (&'static str, &'static str) {
+    match (reason, cause) {
+        (Reason::Numerics, _) => ("numerics", "some length could not be decided numerically"),
+        (Reason::Stopped, Some(Cause::Timeout)) => ("timeout", "time ran out"),
+        (Reason::Stopped, _) => ("interrupt", "interrupted"),
+    }
+}
+
+fn unknown(why: &str, reached: usize, elapsed: Duration) -> String {
+    let at = if reached == 0 { "before the search began".into() } else { format!("at length {reached}") };
+    format!("unknown: {why} {at}, after {:.1} s; no plan was written", elapsed.as_secs_f64())
+}
+
+/// What is said when the process has to end in the middle of something.
+fn last_words(output: Output) -> LastWords {
+    Box::new(move |cause: Cause, progress: Progress, elapsed: Duration| {
+        let (name, why) = why_unknown(Reason::Stopped, Some(cause));
+        // Nothing more can be done about an output that fails here.
+        let _ = output.say(&unknown(why, progress.length, elapsed));
+        let json = JsonSolve::new("unknown", elapsed, JsonStats::of_progress(&progress));
+        let _ = output.json(&JsonSolve { reason: Some(name), reached: Some(progress.length), ..json });
+    })
+}
