@@ -9,34 +9,38 @@ use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use dashu_base::{BitTest, Gcd, Signed, UnsignedAbs};
+use dashu_base::{BitTest, Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
+
+mod repr;
+
+use repr::Repr;
 
 /// A matrix of exact numbers, row-major in meaning (`m[(row, column)]`).
 pub type RationalMatrix = nalgebra::DMatrix<Rational>;
 
 /// An exact rational number, always in lowest terms.
-#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
-pub struct Rational(RBig);
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Rational(Repr);
 
 impl Rational {
     /// The number 0.
-    pub const ZERO: Rational = Rational(RBig::ZERO);
+    pub const ZERO: Rational = Rational(Repr::ZERO);
     /// The number 1.
-    pub const ONE: Rational = Rational(RBig::ONE);
+    pub const ONE: Rational = Rational(Repr::ONE);
 
     /// The quotient of two machine integers.
     ///
     /// # Panics
     /// When `denominator` is 0.
     pub fn ratio(numerator: i64, denominator: i64) -> Rational {
-        Rational(RBig::from_parts_signed(numerator.into(), denominator.into()))
+        Rational(Repr::of(RBig::from_parts_signed(numerator.into(), denominator.into())))
     }
 
     /// The double as the exact number that it is; `None` for NaN and infinities.
     pub fn from_f64(value: f64) -> Option<Rational> {
-        RBig::try_from(value).ok().map(Rational)
+        Repr::from_f64(value).map(Rational)
     }
 
     /// `digits · 10^exponent`, where `digits` is a run of decimal digits.
@@ -46,12 +50,12 @@ impl Rational {
         let mantissa = UBig::from_str_radix(digits, 10).ok()?;
         let power = UBig::from(10u8).pow(exponent.unsigned_abs() as usize);
         let (num, den) = if exponent < 0 { (mantissa, power) } else { (mantissa * power, UBig::ONE) };
-        Some(Rational(RBig::from_parts(num.into(), den)))
+        Some(Rational(Repr::of(RBig::from_parts(num.into(), den))))
     }
 
     /// The double nearest to the number (infinite beyond the range of doubles).
     pub fn to_f64(&self) -> f64 {
-        self.0.to_f64().value()
+        self.0.to_f64()
     }
 
     /// The largest double that is not above the number.
@@ -90,7 +94,7 @@ impl Rational {
 
     /// Whether the number is whole.
     pub fn is_integer(&self) -> bool {
-        self.0.denominator().is_one()
+        self.0.is_integer()
     }
 
     /// The value as a machine integer, if it is whole and fits.
@@ -98,17 +102,17 @@ impl Rational {
         if !self.is_integer() {
             return None;
         }
-        i64::try_from(self.0.numerator()).ok()
+        i64::try_from(self.0.ratio().numerator()).ok()
     }
 
     /// The largest whole number that is not above the number.
     pub fn floor(&self) -> Rational {
-        Rational(RBig::from(self.0.floor()))
+        Rational(Repr::dyadic(self.0.ratio().floor(), 0))
     }
 
     /// The smallest whole number that is not below the number.
     pub fn ceil(&self) -> Rational {
-        Rational(RBig::from(self.0.ceil()))
+        Rational(Repr::dyadic(self.0.ratio().ceil(), 0))
     }
 
     /// The number to a whole power; `None` for 0 to a negative one.
@@ -121,7 +125,7 @@ impl Rational {
             }
             return (Rational::ONE / self).pow(exponent.checked_neg()?);
         }
-        Some(Rational(self.0.pow(exponent as isize)))
+        Some(Rational(self.0.pow(exponent.unsigned_abs())))
     }
 
     /// The quotient; `None` when `divisor` is 0.
@@ -131,17 +135,20 @@ impl Rational {
 
     /// The number of bits of numerator and denominator together: what computing with it costs.
     pub fn bits(&self) -> usize {
-        self.0.numerator().bit_len() + self.0.denominator().bit_len()
+        let ratio = self.0.ratio();
+        ratio.numerator().bit_len() + ratio.denominator().bit_len()
     }
 
     /// A whole number e with 2^(e−1) < |x| < 2^(e+1); meaningless for 0.
     pub fn binary_magnitude(&self) -> i64 {
-        self.0.numerator().bit_len() as i64 - self.0.denominator().bit_len() as i64
+        let ratio = self.0.ratio();
+        ratio.numerator().bit_len() as i64 - ratio.denominator().bit_len() as i64
     }
 
     /// Numerator and denominator as decimal text, in lowest terms with a positive denominator.
     pub fn parts(&self) -> (String, String) {
-        (self.0.numerator().to_string(), self.0.denominator().to_string())
+        let ratio = self.0.ratio();
+        (ratio.numerator().to_string(), ratio.denominator().to_string())
     }
 
     /// The smaller of two numbers.
@@ -166,16 +173,17 @@ pub fn dot(a: &[Rational], b: &[Rational]) -> Rational {
 pub fn primitive(vector: &[Rational]) -> Vec<Rational> {
     let mut denominator = UBig::ONE;
     for x in vector {
-        let d = x.0.denominator();
+        let ratio = x.0.ratio();
+        let d = ratio.denominator();
         denominator = &denominator / (&denominator).gcd(d) * d;
     }
-    let scale = Rational(RBig::from(denominator));
+    let scale = Rational(Repr::dyadic(denominator.into(), 0));
     let whole: Vec<Rational> = vector.iter().map(|x| x * &scale).collect();
-    let divisor = whole.iter().fold(UBig::ZERO, |g, x| gcd(&g, x.0.numerator()));
+    let divisor = whole.iter().fold(UBig::ZERO, |g, x| gcd(&g, x.0.ratio().numerator()));
     if divisor == UBig::ZERO {
         return vector.to_vec();
     }
-    let divisor = Rational(RBig::from(divisor));
+    let divisor = Rational(Repr::dyadic(divisor.into(), 0));
     whole.into_iter().map(|x| x / &divisor).collect()
 }
 
@@ -193,7 +201,13 @@ fn gcd(a: &UBig, b: &IBig) -> UBig {
 
 impl From<i64> for Rational {
     fn from(value: i64) -> Rational {
-        Rational(RBig::from(IBig::from(value)))
+        Rational(Repr::dyadic(IBig::from(value), 0))
+    }
+}
+
+impl Default for Rational {
+    fn default() -> Rational {
+        Rational::ZERO
     }
 }
 
@@ -217,25 +231,25 @@ macro_rules! binary {
         impl $op for Rational {
             type Output = Rational;
             fn $method(self, other: Rational) -> Rational {
-                Rational($op::$method(self.0, other.0))
+                Rational(self.0.$method(&other.0))
             }
         }
         impl $op<&Rational> for Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                Rational($op::$method(self.0, &other.0))
+                Rational(self.0.$method(&other.0))
             }
         }
         impl $op<Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: Rational) -> Rational {
-                Rational($op::$method(&self.0, other.0))
+                Rational(self.0.$method(&other.0))
             }
         }
         impl $op<&Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                Rational($op::$method(&self.0, &other.0))
+                Rational(self.0.$method(&other.0))
             }
         }
     };
@@ -248,33 +262,33 @@ binary!(Div, div);
 impl Neg for Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
-        Rational(-self.0)
+        Rational(self.0.neg())
     }
 }
 impl Neg for &Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
-        Rational(-&self.0)
+        Rational(self.0.neg())
     }
 }
 
 macro_rules! assign {
-    ($op:ident, $method:ident) => {
+    ($op:ident, $method:ident, $plain:ident) => {
         impl $op for Rational {
             fn $method(&mut self, other: Rational) {
-                $op::$method(&mut self.0, other.0);
+                self.0 = self.0.$plain(&other.0);
             }
         }
         impl $op<&Rational> for Rational {
             fn $method(&mut self, other: &Rational) {
-                $op::$method(&mut self.0, &other.0);
+                self.0 = self.0.$plain(&other.0);
             }
         }
     };
 }
-assign!(AddAssign, add_assign);
-assign!(SubAssign, sub_assign);
-assign!(MulAssign, mul_assign);
+assign!(AddAssign, add_assign, add);
+assign!(SubAssign, sub_assign, sub);
+assign!(MulAssign, mul_assign, mul);
 
 impl Sum for Rational {
     fn sum<I: Iterator<Item = Rational>>(iter: I) -> Rational {
@@ -302,20 +316,24 @@ impl PartialOrd<i64> for Rational {
 impl fmt::Display for Rational {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_integer() {
-            return write!(f, "{}", self.0.numerator());
+            return write!(f, "{}", self.0.ratio().numerator());
         }
         let mut scaled = self.abs();
         let ten = Rational::from(10);
         for places in 1..=18usize {
             scaled *= &ten;
             if scaled.is_integer() {
-                let digits = format!("{:0>width$}", scaled.0.numerator().to_string(), width = places + 1);
+                let digits =
+                    format!("{:0>width$}", scaled.0.ratio().numerator().to_string(), width = places + 1);
                 let (whole, fraction) = digits.split_at(digits.len() - places);
                 let sign = if self.is_negative() { "-" } else { "" };
                 return write!(f, "{sign}{whole}.{fraction}");
             }
         }
-        write!(f, "{}/{}", self.0.numerator(), self.0.denominator())
+        {
+            let ratio = self.0.ratio();
+            write!(f, "{}/{}", ratio.numerator(), ratio.denominator())
+        }
     }
 }
 
@@ -338,6 +356,58 @@ mod tests {
         assert_eq!(Rational::ratio(1, 3).to_string(), "1/3");
         assert_eq!(Rational::ratio(-5, 4).to_string(), "-1.25");
         assert_eq!(Rational::from(12).to_string(), "12");
+    }
+
+    /// Numbers of both forms, extreme doubles among them.
+    fn numbers() -> Vec<Rational> {
+        let doubles = [0.0, 1.0, -0.5, 0.1, 12.0, -1e300, 5e-324, 4.9e-310, f64::MAX, 1.0 + f64::EPSILON];
+        let ratios = [(1, 3), (-2, 3), (1, 48), (7, 10), (5, 6), (-1, 6)];
+        let doubles = doubles.iter().map(|&x| Rational::from_f64(x).unwrap());
+        doubles.chain(ratios.map(|(n, d)| Rational::ratio(n, d))).collect()
+    }
+
+    #[test]
+    fn both_forms_compute_like_quotients() {
+        let same = |found: Rational, expected: RBig, what: &str| {
+            assert_eq!(*found.0.ratio(), expected, "{what}");
+            // One form only: equality and hashes rely on it.
+            assert_eq!(found, Rational(Repr::of(expected)), "{what}");
+        };
+        for (a, b) in numbers().iter().flat_map(|a| numbers().into_iter().map(move |b| (a.clone(), b))) {
+            let (x, y) = (a.0.ratio().into_owned(), b.0.ratio().into_owned());
+            let what = format!("{a} and {b}");
+            same(&a + &b, &x + &y, &what);
+            same(&a - &b, &x - &y, &what);
+            same(&a * &b, &x * &y, &what);
+            if !b.is_zero() {
+                same(&a / &b, &x / &y, &what);
+            }
+            assert_eq!(a.cmp(&b), x.cmp(&y), "{what}");
+        }
+    }
+
+    #[test]
+    fn every_double_comes_back() {
+        let mut bits = 1u64;
+        for _ in 0..20_000 {
+            bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let x = f64::from_bits(bits);
+            let exact = Rational::from_f64(x);
+            assert_eq!(exact.is_some(), x.is_finite());
+            let Some(exact) = exact else { continue };
+            assert_eq!(exact.to_f64(), x);
+            assert_eq!(*exact.0.ratio(), RBig::try_from(x).unwrap());
+            // Between two doubles the nearer one, and the even one in the middle.
+            let (up, eps) = (x.next_up(), Rational::ratio(1, 1 << 40));
+            if !up.is_finite() || x == 0.0 || up == 0.0 {
+                continue;
+            }
+            let gap = Rational::from_f64(up).unwrap() - &exact;
+            let middle = &exact + &gap * Rational::ratio(1, 2);
+            assert_eq!(middle.to_f64(), if x.to_bits() % 2 == 0 { x } else { up });
+            assert_eq!((&middle - &gap * &eps).to_f64(), x);
+            assert_eq!((&middle + &gap * &eps).to_f64(), up);
+        }
     }
 
     #[test]

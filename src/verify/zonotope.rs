@@ -1,6 +1,8 @@
 //! Zonotopes in the workspace: the tubes' position parts, exactly.
 
+use std::cell::RefCell;
 use std::cmp::Ordering;
+use std::collections::HashMap;
 
 use crate::exact::{Rational, dot};
 
@@ -13,6 +15,9 @@ pub(super) struct Zonotope {
     box_part: Vec<Rational>,
     /// The generators that are along no axis.
     oblique: Vec<Vec<Rational>>,
+    /// What the oblique generators reach along the directions asked so far: planes repeat their
+    /// normals from step to step, and coupled dynamics have dozens of generators.
+    asked: RefCell<HashMap<Vec<Rational>, Rational>>,
 }
 
 impl Zonotope {
@@ -21,8 +26,12 @@ impl Zonotope {
         center: Vec<Rational>,
         generators: impl IntoIterator<Item = Vec<Rational>>,
     ) -> Zonotope {
-        let mut zonotope =
-            Zonotope { box_part: vec![Rational::ZERO; center.len()], oblique: Vec::new(), center };
+        let mut zonotope = Zonotope {
+            box_part: vec![Rational::ZERO; center.len()],
+            oblique: Vec::new(),
+            center,
+            asked: RefCell::default(),
+        };
         for g in generators {
             let mut along = (0..g.len()).filter(|&axis| !g[axis].is_zero());
             match (along.next(), along.next()) {
@@ -47,8 +56,21 @@ impl Zonotope {
             .filter(|(x, w)| !x.is_zero() && !w.is_zero())
             .map(|(x, w)| x.abs() * w)
             .sum();
-        let oblique: Rational = self.oblique.iter().map(|g| dot(a, g).abs()).sum();
-        dot(a, &self.center) + boxed + oblique
+        dot(a, &self.center) + boxed + self.oblique_reach(a)
+    }
+
+    /// Σ |a·g| over the oblique generators.
+    fn oblique_reach(&self, a: &[Rational]) -> Rational {
+        if self.oblique.is_empty() {
+            return Rational::ZERO;
+        }
+        let mut asked = self.asked.borrow_mut();
+        if let Some(reach) = asked.get(a) {
+            return reach.clone();
+        }
+        let reach: Rational = self.oblique.iter().map(|g| dot(a, g).abs()).sum();
+        asked.insert(a.to_vec(), reach.clone());
+        reach
     }
 
     /// max sign·p[axis] over the zonotope.
@@ -64,6 +86,7 @@ impl Zonotope {
             center: self.center.iter().zip(&other.center).map(|(a, b)| a - b).collect(),
             box_part: self.box_part.iter().zip(&other.box_part).map(|(a, b)| a + b).collect(),
             oblique,
+            asked: RefCell::default(),
         }
     }
 
