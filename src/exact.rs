@@ -303,7 +303,8 @@ impl<'a> Sum<&'a Rational> for Rational {
 
 impl PartialEq<i64> for Rational {
     fn eq(&self, other: &i64) -> bool {
-        *self == Rational::from(*other)
+        let other = Rational::from(*other);
+        *self == other
     }
 }
 impl PartialOrd<i64> for Rational {
