@@ -55,7 +55,8 @@ impl File {
 /// A declaration that could not be read.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Broken {
-    /// The word that it begins with (`opaque obstacle` begins with `obstacle`), or whatever stands there.
+    /// The word that it begins with (`opaque obstacle` begins with `obstacle`): the keyword that is
+    /// spelt nearly so, else whatever stands there.
     pub keyword: String,
     /// The name that it was to declare, where one can be seen.
     pub name: Option<Name>,

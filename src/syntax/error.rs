@@ -215,7 +215,9 @@ pub(super) fn window_on_next(span: Span) -> Diagnostic {
 
 pub(super) fn missing_comma(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::syntax::missing_comma", "a comma is missing between two entries", span, "")
-        .with_help("entries of a row are separated by commas: `[0, 1]`; a difference is written `a - b`")
+        .with_help(
+            "entries are separated by commas, rows by `;`: `[0, 1; 1, 0]`; a difference is written `a - b`",
+        )
 }
 
 pub(super) fn unreadable(span: Span) -> Diagnostic {

@@ -7,7 +7,7 @@ use crate::syntax::condensed::Condensed;
 use crate::syntax::error;
 use crate::syntax::grammar::Rule;
 use crate::syntax::mend::{self, Case};
-use crate::syntax::scan::{Bracket, MAX_NESTING, STARTERS};
+use crate::syntax::scan::{Bracket, STARTERS};
 
 /// The longest piece of the text that a message repeats, in characters.
 const MAX_SHOWN: usize = 40;
@@ -84,7 +84,7 @@ pub(super) fn explain(failure: &Failure, text: &str, around: &Surroundings) -> D
     let found = token_at(text, failure.position);
     let span = around.place(failure.position, failure.position + found.len());
     if failure.exhausted {
-        return error::too_nested(span, &format!("brackets or operators (up to {MAX_NESTING})"));
+        return error::too_nested(span, "brackets");
     }
     if let Some(bracket) = around.bracket {
         let at_it = !bracket.opening && span.start as usize == bracket.offset;
@@ -291,6 +291,17 @@ mod tests {
             let name = name(*rule);
             assert!(!name.contains('_') || is_lexical(*rule), "{rule:?} is called {name}");
         }
+    }
+
+    #[test]
+    fn the_grammar_reserves_the_same_words() {
+        let grammar = include_str!("../../grammar/dosm.pest");
+        let rule = grammar.split("reserved = @{").nth(1).and_then(|rest| rest.split('}').next()).unwrap();
+        let mut there: Vec<&str> = rule.split('"').skip(1).step_by(2).collect();
+        let mut here: Vec<&str> = STARTERS.iter().chain(&INNER_WORDS).copied().collect();
+        there.sort_unstable();
+        here.sort_unstable();
+        assert_eq!(there, here);
     }
 
     /// Rules that are parts of tokens or not tracked.

@@ -70,3 +70,27 @@ impl<'i> Iterator for Children<'i> {
 pub(super) fn is_mark(rule: Rule) -> bool {
     rule >= Rule::lparen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grammar_alone_reads_a_whole_file_with_its_comments() {
+        let text = include_str!("../../tests/missions/parse/everything.dosm");
+        let file = run(Rule::file, text).unwrap().next().unwrap();
+        let declarations = file.into_inner().filter(|node| node.as_rule() == Rule::declaration).count();
+        assert!(declarations > 40, "{declarations}");
+        assert!(run(Rule::file, &text.replace("*/", "")).is_err());
+    }
+
+    #[test]
+    fn signs_and_keywords_stand_last() {
+        for rule in Rule::all_rules() {
+            let word = format!("{rule:?}");
+            let keyword = word.starts_with("kw_") || word.starts_with("letter_");
+            assert!(!keyword || is_mark(*rule), "{word}");
+        }
+        assert!(is_mark(Rule::times) && !is_mark(Rule::sum_operator) && !is_mark(Rule::EOI));
+    }
+}

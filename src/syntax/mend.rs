@@ -79,6 +79,7 @@ pub(super) fn help(case: &Case) -> Option<String> {
         "*" if case.before().ends_with('*') => "powers are written with `^`",
         "\"" | "'" | "`" => "there are no quotation marks in missions",
         ";" if ends => "declarations are not followed by `;`",
+        "[" if case.before().ends_with('[') => "rows are separated by `;`: `[1, 0; 0, 1]`",
         "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
         word if is_reserved(word) && case.failure.expects_name() => {
             "it is a word of the language and can't be a name"
@@ -123,9 +124,7 @@ impl Case<'_> {
                 keywords.extend(words.iter().map(|word| (*word).to_owned()));
             }
         }
-        let near = |word: &String| (distance(self.found, word), word.clone());
-        let limit = if self.found.len() <= 3 { 1 } else { 2 };
-        keywords.iter().map(near).filter(|(d, _)| *d <= limit).min().map(|(_, word)| word)
+        nearest(self.found, keywords.iter().map(String::as_str)).map(str::to_owned)
     }
 }
 
@@ -271,6 +270,18 @@ fn innermost_bracket(text: &str) -> Option<char> {
         }
     }
     None
+}
+
+/// The word that begins declarations and is spelt nearly like this one.
+pub(super) fn nearest_starter(word: &str) -> Option<&'static str> {
+    nearest(word, STARTERS.into_iter())
+}
+
+/// The candidate that is spelt nearly like a word.
+fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = if word.len() <= 3 { 1 } else { 2 };
+    let near = candidates.map(|candidate| (distance(word, candidate), candidate));
+    near.filter(|(distance, _)| *distance <= limit).min().map(|(_, candidate)| candidate)
 }
 
 /// The number of letters to change, add, leave out or swap with their neighbour.

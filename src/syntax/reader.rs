@@ -9,6 +9,7 @@ use crate::syntax::docs::Docs;
 use crate::syntax::error;
 use crate::syntax::expected::{self, Failure, Surroundings};
 use crate::syntax::grammar::{self, Built, Node, Rule, Stop};
+use crate::syntax::mend;
 use crate::syntax::scan::{self, STARTERS, Scan, Stretch};
 
 /// Parses a mission.
@@ -256,7 +257,8 @@ impl<'a> Reader<'a> {
             span: self.place(base + at, base + at + word.len()),
         });
         let span = self.place(base, stretch.range.end);
-        self.broken.push(Broken { keyword: first.to_owned(), name, span });
+        let keyword = mend::nearest_starter(first).unwrap_or(first).to_owned();
+        self.broken.push(Broken { keyword, name, span });
     }
 }
 

@@ -147,7 +147,7 @@ fn each_broken_declaration_is_one_error_and_leaves_the_others_alone() {
         ("dynamics D { state base: m }\nmission b", "mission b\nbroken dynamics D", 1),
         ("dynamics D { state a: m\nmission b", "mission b\nbroken dynamics D", 1),
         ("region\nmission b", "mission b\nbroken region ?", 1),
-        ("mission b\nregoin a = hull (1, 1)\nlet c = 1", "mission b\nlet c 1\nbroken regoin a", 1),
+        ("mission b\nregoin a = hull (1, 1)\nlet c = 1", "mission b\nlet c 1\nbroken region a", 1),
         ("define d = a b", "define d a\nbroken b ?", 1),
         ("define d = a and (b c)", "broken define d", 1),
         ("let a = 1e999\nlet b = 1e-999 + 1e999", "broken let a\nbroken let b", 2),

@@ -66,7 +66,9 @@ fn reserved_words_are_no_names() {
 
 #[test]
 fn commas() {
-    check("let A = [0 1]", "missing_comma", "1", "`[0, 1]`");
+    check("let A = [0 1]", "missing_comma", "1", "`[0, 1; 1, 0]`");
+    check("let A = [1, 0\n 0, 1]", "missing_comma", "0", "rows by `;`");
+    check("let A = [[1, 0], [0, 1]]", "expected", "[", "rows are separated by `;`");
     check("let A = [0, 1; 2 3]", "missing_comma", "3", "commas");
     check("let A = [1 -1]", "missing_comma", "-", "commas");
     check("let A = [a -b, c]", "missing_comma", "-", "`a - b`");
