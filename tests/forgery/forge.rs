@@ -13,7 +13,7 @@ use crate::sampling::{Dice, counterexample};
 use crate::scene::Scene;
 
 /// A place in the file: keys and indices from the root.
-type Path = Vec<String>;
+pub type Path = Vec<String>;
 
 fn paths(value: &Value, at: &mut Path, found: &mut Vec<Path>) {
     found.push(at.clone());
@@ -117,13 +117,21 @@ fn binding(path: &[String]) -> bool {
 
 /// What became of the forgeries.
 #[derive(Default)]
-struct Tally {
-    refused: usize,
-    passed: Vec<(Path, usize)>,
+pub struct Tally {
+    pub refused: usize,
+    pub passed: Vec<(Path, usize)>,
 }
 
-/// Makes one in `every` of all forgeries at the chosen places.
-fn forge(problem: &Problem, plan: &Plan, chosen: impl Fn(&Path) -> bool, every: usize, runs: usize) -> Tally {
+/// Makes one in `every` of all forgeries at the chosen places; those at binding places must be
+/// refused.
+pub fn forge(
+    problem: &Problem,
+    plan: &Plan,
+    chosen: impl Fn(&Path) -> bool,
+    binding: impl Fn(&[String]) -> bool,
+    every: usize,
+    runs: usize,
+) -> Tally {
     let original: Value = serde_json::from_str(&json::write(plan)).unwrap();
     let names =
         ["R1", "R2", "B1", "J1", "wall", "pi1", "pi2", "in", "out", "unknown", "Rover0", "Rover1", "x"];
@@ -161,7 +169,7 @@ fn forge(problem: &Problem, plan: &Plan, chosen: impl Fn(&Path) -> bool, every: 
 fn forgeries_are_refused_or_do_no_harm() {
     let (problem, plan) = relay(Scene::default());
     assert_eq!(counterexample(&problem, &plan, 200, &mut Dice(7)), None);
-    let tally = forge(&problem, &plan, |_| true, 4, 2);
+    let tally = forge(&problem, &plan, |_| true, binding, 4, 2);
     assert!(tally.refused > 1_500, "{} refused", tally.refused);
 }
 
@@ -173,7 +181,7 @@ fn planes_that_touch_the_tube_have_no_room() {
         let is = |key: Option<&String>, name: &str| key.is_some_and(|key| key == name);
         is(path.first(), "robots") && is(path.last(), "offset")
     };
-    let tally = forge(&problem, &plan, own_offset, 1, 1);
+    let tally = forge(&problem, &plan, own_offset, binding, 1, 1);
     // Of the two smallest changes of an offset one moves the plane into the tube.
     let slight: Vec<&Path> =
         tally.passed.iter().filter(|(_, which)| *which < 2).map(|(path, _)| path).collect();

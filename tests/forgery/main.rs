@@ -2,6 +2,7 @@
 
 mod bounds;
 mod cases;
+mod flights;
 mod forge;
 mod links;
 mod sampling;
