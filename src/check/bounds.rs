@@ -1,10 +1,12 @@
 //! The intervals of a motion model: bounds on states and inputs, and the disturbance.
 
 use crate::check::expression::Scope;
+use crate::check::shapes::MAX_PARTS;
 use crate::check::{Checker, messages, typed};
 use crate::diag::Reported;
+use crate::geometry::HalfSpace;
 use crate::source::Span;
-use crate::syntax::ast::{DynamicsItem, DynamicsKind, Interval, Name};
+use crate::syntax::ast::{DynamicsItem, DynamicsKind, Inequality, Interval, Name};
 
 /// The intervals that a model's items say, one entry a signal.
 pub(super) struct Bounds {
@@ -12,6 +14,8 @@ pub(super) struct Bounds {
     pub(super) states: Vec<Option<typed::Interval>>,
     /// The box part of 𝒰.
     pub(super) inputs: Vec<Option<typed::Interval>>,
+    /// The general part of 𝒳 × 𝒰, over states and inputs.
+    pub(super) mixed: Vec<HalfSpace>,
     /// Θ.
     pub(super) disturbance: Vec<Option<typed::Interval>>,
 }
@@ -27,9 +31,13 @@ impl Checker<'_> {
         let mut bounded = vec![None; states.len() + inputs.len()];
         let mut disturbance = vec![None; states.len()];
         let signals: Vec<&typed::Signal> = states.iter().chain(inputs).collect();
+        let mut mixed = Vec::new();
         let mut failed = None;
         for item in items {
             let result = match &item.kind {
+                DynamicsKind::BoundWhere(inequalities) => {
+                    self.general(inequalities, &signals, item.span).map(|rows| mixed.extend(rows))
+                }
                 DynamicsKind::Bound { names, interval } => {
                     self.fill(&mut bounded, &signals, "state or input", names, interval, item.span)
                 }
@@ -49,7 +57,23 @@ impl Checker<'_> {
                 failed = Some(self.report(messages::point_bound(interval.span)));
             }
         }
-        failed.map_or(Ok(Bounds { states: bounded, inputs, disturbance }), Err)
+        failed.map_or(Ok(Bounds { states: bounded, inputs, mixed, disturbance }), Err)
+    }
+
+    /// Half-spaces over all states and inputs.
+    fn general(
+        &mut self,
+        inequalities: &[Inequality],
+        signals: &[&typed::Signal],
+        span: Span,
+    ) -> Result<Vec<HalfSpace>, Reported> {
+        if inequalities.len() > MAX_PARTS {
+            return Err(self.report(messages::too_many_parts(span, inequalities.len(), MAX_PARTS)));
+        }
+        let coordinates = signals.iter().map(|s| (s.name.clone(), s.dimension)).collect();
+        let scope = Scope { coordinates, ..Scope::default() };
+        let rows: Vec<_> = inequalities.iter().map(|i| self.half_space(i, &scope)).collect();
+        rows.into_iter().collect()
     }
 
     fn fill(

@@ -2,10 +2,12 @@
 
 use crate::check::bounds::Bounds;
 use crate::check::expression::Scope;
+use crate::check::hold::zero_order_hold;
 use crate::check::{Checker, Entry, doc_text, messages, typed};
 use crate::diag::{Diagnostic, Reported};
-use crate::exact::Rational;
-use crate::quantity::Dimension;
+use crate::exact::{Rational, RationalMatrix};
+use crate::ir;
+use crate::quantity::{Dimension, in_range};
 use crate::source::Span;
 use crate::syntax::ast::{self, DynamicsItem, DynamicsKind, Expr, Name};
 
@@ -28,6 +30,7 @@ struct Items<'i> {
     c: Option<(&'i DynamicsItem, &'i Expr)>,
     integrator: Option<(&'i DynamicsItem, &'i Expr)>,
     rejection: Option<(&'i DynamicsItem, &'i Expr)>,
+    continuous: Option<&'i DynamicsItem>,
 }
 
 /// The signals and the law of motion of a model.
@@ -64,11 +67,8 @@ impl Checker<'_> {
         let rejection = self.rejection(&items);
         let law = law?;
         let bounds = self.bounds(list, &law.states, &law.inputs);
-        if self.dynamics.len() >= MAX_SIGNALS * MAX_SIGNALS {
-            return Err(self.report(messages::too_many_parts(name.span, self.dynamics.len(), MAX_SIGNALS)));
-        }
         complete?;
-        let Bounds { states: state_bounds, inputs: input_bounds, disturbance } = bounds?;
+        let Bounds { states: state_bounds, inputs: input_bounds, mixed: mixed_bounds, disturbance } = bounds?;
         let input_bounds = self.complete_input_bounds(name, &law.inputs, input_bounds)?;
         Ok(typed::Dynamics {
             name: name.text.clone(),
@@ -82,7 +82,7 @@ impl Checker<'_> {
             input_matrix_span: law.input_matrix_span,
             state_bounds,
             input_bounds,
-            mixed_bounds: Vec::new(),
+            mixed_bounds,
             disturbance,
             rejection: rejection?,
         })
@@ -113,15 +113,10 @@ impl Checker<'_> {
                 },
                 DynamicsKind::Integrator(expr) => items.integrator.replace((item, expr)).map(|f| f.0),
                 DynamicsKind::Rejection(expr) => items.rejection.replace((item, expr)).map(|f| f.0),
-                DynamicsKind::Bound { .. } | DynamicsKind::Disturbance { .. } => None,
-                DynamicsKind::Continuous => {
-                    complete = Err(self.report(messages::unsupported("a continuous model", item.span)));
-                    None
-                }
-                DynamicsKind::BoundWhere(_) => {
-                    complete = Err(self.report(messages::unsupported("`bound where`", item.span)));
-                    None
-                }
+                DynamicsKind::Bound { .. }
+                | DynamicsKind::BoundWhere(_)
+                | DynamicsKind::Disturbance { .. } => None,
+                DynamicsKind::Continuous => items.continuous.replace(item),
                 DynamicsKind::Mode { .. } => {
                     complete = Err(self.report(messages::unsupported("a `mode`", item.span)));
                     None
@@ -181,11 +176,18 @@ impl Checker<'_> {
         let position = self.position(position, position_item.span, &states);
         let state_dimensions: Vec<Dimension> = states.iter().map(|s| s.dimension).collect();
         let input_dimensions: Vec<Dimension> = inputs.iter().map(|s| s.dimension).collect();
-        let square = self.matrix("A", a.1, &state_dimensions, &state_dimensions);
-        let wide = self.matrix("B", b.1, &state_dimensions, &input_dimensions);
-        let offset = items.c.map(|(_, expr)| self.column(expr, &state_dimensions)).transpose();
+        let rate = |d: &Dimension| if items.continuous.is_some() { d.per(Dimension::TIME) } else { Some(*d) };
+        let rows: Vec<Dimension> = state_dimensions.iter().map(|d| rate(d).unwrap_or_default()).collect();
+        let square = self.matrix("A", a.1, &rows, &state_dimensions);
+        let wide = self.matrix("B", b.1, &rows, &input_dimensions);
+        let offset = items.c.map(|(_, expr)| self.column(expr, &rows)).transpose();
         let c = offset?.unwrap_or_else(|| vec![Rational::ZERO; states.len()]);
-        let motion = typed::Motion::Matrices { a: square?, b: wide?, c };
+        let (a, b_rows) = (square?, wide?);
+        let motion = match (items.continuous, step) {
+            (None, _) => typed::Motion::Matrices { a, b: b_rows, c, enclosure: None },
+            (Some(item), Some(step)) => self.held(item, (&a, &b_rows, &c), &step)?,
+            (Some(item), None) => return Err(self.reported(|| messages::stiff_model(item.span))),
+        };
         Ok(Law { states, inputs, position: position?, motion, input_matrix_span: b.0.span })
     }
 
@@ -306,6 +308,8 @@ impl Checker<'_> {
             (items.position.map(|p| p.0), "position"),
             (items.a.map(|a| a.0), "A"),
             (items.b.map(|b| b.0), "B"),
+            (items.c.map(|c| c.0), "c"),
+            (items.continuous, "continuous"),
         ]
         .into_iter()
         .filter_map(|(item, what)| Some((item?, what)))
@@ -318,10 +322,7 @@ impl Checker<'_> {
             return Err(self.report(messages::bad_order(order.span, number, CHAIN.len() - 1)));
         };
         let (states, inputs) = self.chains(length);
-        if let Some(c) = items.c {
-            return Err(self.report(messages::integrator_clash(item.span, c.0.span, "c")));
-        }
-        if step.is_some_and(|s| s.bits() * length > crate::quantity::MAX_BITS) {
+        if step.is_some_and(|step| !has_powers(&step, length)) {
             return Err(self.report(messages::number_out_of_range(item.span)));
         }
         let position = (0..self.dimension).map(|axis| axis * length).collect();
@@ -342,6 +343,31 @@ impl Checker<'_> {
         (states.map(|(a, d)| signal(a, d)).collect(), axes.map(|axis| signal(axis, order)).collect())
     }
 
+    /// The zero-order hold of dx/dt = A x + B u + c.
+    fn held(
+        &mut self,
+        item: &DynamicsItem,
+        (a, b, c): (&[Vec<Rational>], &[Vec<Rational>], &[Rational]),
+        step: &Rational,
+    ) -> Result<typed::Motion, Reported> {
+        let (n, m) = (a.len(), b.first().map_or(0, Vec::len));
+        let entries = a.iter().zip(b).zip(c).flat_map(|((a, b), c)| a.iter().chain(b).chain([c]).cloned());
+        let rates = RationalMatrix::from_row_iterator(n, n + m + 1, entries);
+        let Some(hold) = zero_order_hold(&rates, step) else {
+            return Err(self.report(messages::stiff_model(item.span)));
+        };
+        let rows = |columns: std::ops::Range<usize>| -> Vec<Vec<Rational>> {
+            (0..n).map(|i| columns.clone().map(|j| hold.value[(i, j)].clone()).collect()).collect()
+        };
+        let enclosure = hold.error.as_ref().map(|error| ir::Enclosure {
+            a: error.columns(0, n).into_owned(),
+            b: error.columns(n, m).into_owned(),
+            c: error.column(n + m).iter().cloned().collect(),
+        });
+        let c = hold.value.column(n + m).iter().cloned().collect();
+        Ok(typed::Motion::Matrices { a: rows(0..n), b: rows(n..n + m), c, enclosure })
+    }
+
     fn complete_input_bounds(
         &mut self,
         name: &Name,
@@ -356,4 +382,13 @@ impl Checker<'_> {
         }
         Ok(bounds.into_iter().flatten().collect())
     }
+}
+
+/// Whether T … T^order / order! are all in range, as the exact zero-order hold needs them.
+fn has_powers(step: &Rational, order: usize) -> bool {
+    let mut power = Rational::ONE;
+    (1..=order as i64).all(|k| {
+        power = &power * step / Rational::from(k);
+        in_range(&power)
+    })
 }

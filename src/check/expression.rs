@@ -118,7 +118,7 @@ impl Checker<'_> {
                 }
             }
         }
-        let reported = || self.diagnostics.report(messages::number_out_of_range(expr.span));
+        let reported = || self.report(messages::number_out_of_range(expr.span));
         values.pop().ok_or_else(reported)
     }
 
@@ -140,11 +140,11 @@ impl Checker<'_> {
         scope: &Scope,
         expected: Dimension,
     ) -> Result<Rational, Reported> {
-        let mut value = self.evaluate(expr, scope)?;
-        if let Some(unit) = unit {
-            value = self.with_unit(value, unit, expr.span)?;
-        }
-        self.expect_dimension(value, expr.span, expected)
+        let value = self.evaluate(expr, scope)?;
+        let Some(unit) = unit else { return self.expect_dimension(value, expr.span, expected) };
+        let value = self.with_unit(value, unit, expr.span)?;
+        // The unit's place, so that a wrong one is one error for the whole bracket.
+        self.expect_dimension(value, unit.span, expected)
     }
 
     /// The number of a value whose dimension fits its place.
@@ -165,9 +165,9 @@ impl Checker<'_> {
         let number = self.quantity(expr, scope, Dimension::NONE)?;
         number.to_i64().ok_or_else(|| {
             if number.is_integer() {
-                self.diagnostics.report(messages::number_out_of_range(expr.span))
+                self.report(messages::number_out_of_range(expr.span))
             } else {
-                self.diagnostics.report(messages::not_whole(expr.span, &number))
+                self.report(messages::not_whole(expr.span, &number))
             }
         })
     }
@@ -220,7 +220,7 @@ impl Checker<'_> {
     /// The unit that is written.
     pub(super) fn unit(&mut self, unit: &ast::Unit) -> Result<Unit, Reported> {
         Unit::from_factors(&unit.factors).map_err(|error| {
-            self.diagnostics.report(match error {
+            self.report(match error {
                 UnitError::Unknown(symbol) => messages::unknown_unit(unit.span, &symbol),
                 UnitError::OutOfRange => messages::number_out_of_range(unit.span),
             })
@@ -331,9 +331,8 @@ impl Checker<'_> {
         };
         let at = |i: i64| usize::try_from(i).ok().and_then(|i| i.checked_sub(1));
         let found = at(row).zip(at(column)).and_then(|(r, c)| rows.get(r)?.get(c)).cloned();
-        found.ok_or_else(|| {
-            self.diagnostics.report(messages::index_out_of_table(reference, (row, column), height, width))
-        })
+        found
+            .ok_or_else(|| self.report(messages::index_out_of_table(reference, (row, column), height, width)))
     }
 
     fn binary(
@@ -377,7 +376,7 @@ impl Checker<'_> {
     }
 
     fn absurd(&mut self, dimension: Option<Dimension>, span: Span) -> Result<Dimension, Reported> {
-        dimension.ok_or_else(|| self.diagnostics.report(messages::number_out_of_range(span)))
+        dimension.ok_or_else(|| self.report(messages::number_out_of_range(span)))
     }
 
     fn expect_constant(&mut self, value: &Value, span: Span) -> Result<(), Reported> {

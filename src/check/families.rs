@@ -134,9 +134,9 @@ impl Checker<'_> {
         if indices.len() != family.ranges.len() {
             return Err(self.report(messages::wrong_member_indices(reference, family.ranges.len())));
         }
-        family.member(&indices).ok_or_else(|| {
-            self.diagnostics.report(messages::no_such_member(reference, &indices, &family.ranges))
-        })
+        family
+            .member(&indices)
+            .ok_or_else(|| self.report(messages::no_such_member(reference, &indices, &family.ranges)))
     }
 }
 

@@ -60,11 +60,14 @@ impl Checker<'_> {
         let roots: Vec<typed::FormulaId> = self.goals.iter().map(|goal| goal.formula).collect();
         let (formulas, roots) = lower::normalise(&self.formulas, &roots);
         let contradictory = contradictions(&formulas);
-        for (goal, root) in self.goals.iter().zip(roots) {
+        for (index, root) in roots.into_iter().enumerate() {
+            let goal = &self.goals[index];
             if contradictory[root.index()] {
-                self.diagnostics.push(messages::false_goal(&goal.name, goal.span));
+                let message = messages::false_goal(&goal.name, goal.span);
+                self.report(message);
             } else if formulas[root] == ir::Formula::True {
-                self.diagnostics.push(messages::trivial_goal(&goal.name, goal.span));
+                let message = messages::trivial_goal(&goal.name, goal.span);
+                self.warn(message);
             }
         }
     }

@@ -11,6 +11,7 @@ mod expression;
 mod families;
 mod formulas;
 mod goals;
+mod hold;
 mod messages;
 mod names;
 mod order;
@@ -73,6 +74,11 @@ enum Entry {
     Formula(Result<typed::FormulaId, Reported>),
 }
 
+/// The most errors that get a name suggested: each looks at all names.
+const MAX_SUGGESTIONS: usize = 50;
+/// The most errors and warnings that are kept.
+const MAX_DIAGNOSTICS: usize = 1000;
+
 /// The state of a check.
 struct Checker<'a> {
     file: &'a ast::File,
@@ -98,6 +104,8 @@ struct Checker<'a> {
     /// The proof that formulas were said to take too much.
     overgrown: Option<Reported>,
     goals: Vec<typed::Goal>,
+    /// How many errors and warnings there were.
+    said: usize,
 }
 
 impl<'a> Checker<'a> {
@@ -121,6 +129,7 @@ impl<'a> Checker<'a> {
             formula_size: 0,
             overgrown: None,
             goals: Vec::new(),
+            said: 0,
         }
     }
 
@@ -143,8 +152,23 @@ impl<'a> Checker<'a> {
     }
 
     /// Adds an error and returns the proof of it.
+    ///
+    /// After [`MAX_DIAGNOSTICS`] of them it is only counted: nobody reads more, and a hostile text must
+    /// not make us compare each with all others.
     fn report(&mut self, diagnostic: Diagnostic) -> Reported {
-        self.diagnostics.report(diagnostic)
+        self.said += 1;
+        match (self.said > MAX_DIAGNOSTICS, self.diagnostics.or_reported()) {
+            (true, Err(reported)) => reported,
+            _ => self.diagnostics.report(diagnostic),
+        }
+    }
+
+    /// Adds a warning, unless there are too many already.
+    fn warn(&mut self, diagnostic: Diagnostic) {
+        self.said += 1;
+        if self.said <= MAX_DIAGNOSTICS {
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     /// The proof that something was reported before, by this phase or the parser.
@@ -186,7 +210,8 @@ impl<'a> Checker<'a> {
             None => {}
         }
         let Some(symbol) = self.names.get(&name.text) else {
-            let near = self.names.nearest(&name.text, kinds).map(str::to_string);
+            let near = if self.said < MAX_SUGGESTIONS { self.names.nearest(&name.text, kinds) } else { None };
+            let near = near.map(str::to_string);
             let message = messages::unknown_name(name, wanted, near.as_deref());
             if self.file.has_broken(&name.text) {
                 return Err(self.reported(|| message));
@@ -211,16 +236,17 @@ impl<'a> Checker<'a> {
             return Err(self.report(messages::predeclared_name(variable)));
         }
         if let Some(symbol) = self.names.get(&variable.text) {
-            self.diagnostics.push(messages::hidden_name(variable, symbol));
+            self.warn(messages::hidden_name(variable, symbol));
         } else if scope.binding(&variable.text).is_some() {
-            self.diagnostics.push(messages::hidden_variable(variable));
+            self.warn(messages::hidden_variable(variable));
         }
         Ok(())
     }
 
     fn stray_comments(&mut self) {
-        for span in &self.file.stray_docs {
-            self.diagnostics.push(messages::misplaced_doc(*span));
+        let file = self.file;
+        for span in &file.stray_docs {
+            self.warn(messages::misplaced_doc(*span));
         }
     }
 
@@ -236,7 +262,7 @@ impl<'a> Checker<'a> {
             .map(|(name, symbol)| messages::unused(name, symbol))
             .collect();
         for warning in unused {
-            self.diagnostics.push(warning);
+            self.warn(warning);
         }
     }
 

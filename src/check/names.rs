@@ -134,7 +134,8 @@ pub(super) fn declared(item: &Item) -> Option<(&Name, Kind)> {
 
 /// The candidate that is most like the written word, if any is like it at all.
 pub(super) fn nearest<'a>(written: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = 1 + written.chars().count() / 4;
+    let length = written.chars().count();
+    let limit = (1 + length / 4).min(length.saturating_sub(1));
     candidates
         .map(|c| (edit_distance(written, c), c))
         .filter(|(distance, _)| *distance <= limit)
@@ -179,5 +180,6 @@ mod tests {
         check("ab", &["ba"], Some("ba"));
         check("storage", &["R1", "lab"], None);
         check("x", &[], None);
+        check("x", &["y", "X"], Some("X"));
     }
 }

@@ -1,6 +1,9 @@
 //! What there is at most one of: edition, name, step, separation, connectivity, horizon, objective.
 
+use std::collections::BTreeSet;
+
 use crate::check::expression::Scope;
+use crate::check::typed::DynamicsId;
 use crate::check::{Checker, messages};
 use crate::diag::Reported;
 use crate::exact::Rational;
@@ -134,7 +137,7 @@ impl Checker<'_> {
         u32::try_from(hops)
             .ok()
             .filter(|h| (1..=MAX_STEPS as u32).contains(h))
-            .ok_or_else(|| self.diagnostics.report(messages::bad_hops(expr.span, hops)))
+            .ok_or_else(|| self.report(messages::bad_hops(expr.span, hops)))
     }
 
     /// Looks at what several declarations say together: one step for all models in use, some base.
@@ -156,15 +159,10 @@ impl Checker<'_> {
     }
 
     fn common_step(&mut self) {
-        let mut used: Vec<crate::check::typed::DynamicsId> = Vec::new();
-        for robot in self.robots.iter().flatten() {
-            if !used.contains(&robot.dynamics) {
-                used.push(robot.dynamics);
-            }
-        }
-        let Some((&first, rest)) = used.split_first() else { return };
+        let mut used: BTreeSet<DynamicsId> = self.robots.iter().flatten().map(|r| r.dynamics).collect();
+        let Some(first) = used.pop_first() else { return };
         let step = self.dynamics[first].step.clone();
-        for &other in rest {
+        for other in used {
             let (a, b) = (&self.dynamics[first], &self.dynamics[other]);
             if a.step != b.step {
                 let message = messages::different_steps(

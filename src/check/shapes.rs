@@ -14,7 +14,7 @@ use crate::syntax::ast::{
 };
 
 /// The most corners of a polygon, points of a hull or half-spaces of a `where`.
-const MAX_PARTS: usize = 256;
+pub(super) const MAX_PARTS: usize = 256;
 
 /// What a shape is for: uncertain balls make sense only as something to stay away from.
 #[derive(Clone, Copy, PartialEq)]
@@ -134,6 +134,15 @@ impl Checker<'_> {
     }
 
     fn piece(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<Polytope, Reported> {
+        let polytope = self.polytope(piece, role, scope)?;
+        let facets = polytope.facets.iter().flat_map(|f| f.normal.iter().chain([&f.offset]));
+        if facets.chain(polytope.vertices.iter().flatten()).all(in_range) {
+            return Ok(polytope);
+        }
+        Err(self.report(messages::number_out_of_range(piece.span)))
+    }
+
+    fn polytope(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<Polytope, Reported> {
         match &piece.kind {
             PieceKind::Box(p, q) => self.box_shape(p, q, scope, piece.span),
             PieceKind::Ball { center, radius, norm, disc } => {
@@ -144,15 +153,13 @@ impl Checker<'_> {
                     return Err(self.report(messages::polygon_in_space(piece.span)));
                 }
                 let corners = self.points(points, piece.span, scope)?;
-                Polytope::polygon(&corners).map_err(|e| {
-                    self.diagnostics.report(messages::bad_points("polygon", piece.span, points, &e))
-                })
+                Polytope::polygon(&corners)
+                    .map_err(|e| self.report(messages::bad_points("polygon", piece.span, points, &e)))
             }
             PieceKind::Hull(points) => {
                 let corners = self.points(points, piece.span, scope)?;
-                Polytope::hull(&corners).map_err(|e| {
-                    self.diagnostics.report(messages::bad_points("hull", piece.span, points, &e))
-                })
+                Polytope::hull(&corners)
+                    .map_err(|e| self.report(messages::bad_points("hull", piece.span, points, &e)))
             }
             PieceKind::Where(inequalities) => self.half_spaces(inequalities, scope, piece.span),
         }
@@ -282,8 +289,7 @@ impl Checker<'_> {
             (0..center.len()).flat_map(|axis| [moved(c, axis, radius), moved(c, axis, &-radius)]).collect()
         };
         let points: Vec<Vec<Rational>> = corners.iter().flat_map(tips).collect();
-        Polytope::hull(&points)
-            .map_err(|e| self.diagnostics.report(messages::bad_points("ball", span, &[], &e)))
+        Polytope::hull(&points).map_err(|e| self.report(messages::bad_points("ball", span, &[], &e)))
     }
 
     fn half_spaces(
@@ -303,7 +309,7 @@ impl Checker<'_> {
         let rows: Vec<_> = inequalities.iter().map(|i| self.half_space(i, &scope)).collect();
         let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
         Polytope::from_half_spaces(&rows)
-            .map_err(|e| self.diagnostics.report(messages::bad_half_spaces(span, inequalities, &e)))
+            .map_err(|e| self.report(messages::bad_half_spaces(span, inequalities, &e)))
     }
 
     /// An inequality over the coordinates in scope as normal · x ≤ offset.

@@ -9,7 +9,9 @@ use crate::entity::Table;
 use crate::entity_id;
 use crate::exact::Rational;
 use crate::geometry::{HalfSpace, Polytope};
-use crate::ir::{Atom, BaseId, BlockerId, BlockerKind, Connectivity, Objective, RegionId, RobotId};
+use crate::ir::{
+    Atom, BaseId, BlockerId, BlockerKind, Connectivity, Enclosure, Objective, RegionId, RobotId,
+};
 use crate::source::Span;
 pub use crate::syntax::ast::Comparison;
 
@@ -190,6 +192,8 @@ pub enum Motion {
         b: Vec<Vec<Rational>>,
         /// c, n entries.
         c: Vec<Rational>,
+        /// How far the true ones may be off (`continuous` models); `None` when they are exact.
+        enclosure: Option<Enclosure>,
     },
     /// One chain of so many integrators an axis.
     Integrator {

@@ -9,6 +9,8 @@ mod model;
 
 pub use formula::normalise;
 
+use std::collections::BTreeSet;
+
 use crate::check::typed;
 use crate::entity::{EntityId, Table};
 use crate::ir;
@@ -44,8 +46,8 @@ pub fn lower(mission: &typed::Mission) -> (ir::Problem, ir::Spans) {
 
 /// The models that some robot uses, in order of declaration.
 fn used_dynamics(mission: &typed::Mission) -> Vec<typed::DynamicsId> {
-    let uses = |id: &typed::DynamicsId| mission.robots.values().any(|r| r.dynamics == *id);
-    mission.dynamics.ids().filter(uses).collect()
+    let used: BTreeSet<typed::DynamicsId> = mission.robots.values().map(|r| r.dynamics).collect();
+    used.into_iter().collect()
 }
 
 fn shape(shape: &typed::Shape) -> ir::Shape {
@@ -70,7 +72,7 @@ fn base(base: &typed::Base) -> ir::Base {
 }
 
 fn robot(robot: &typed::Robot, used: &[typed::DynamicsId]) -> ir::Robot {
-    let place = used.iter().position(|id| *id == robot.dynamics).unwrap_or_default();
+    let place = used.binary_search(&robot.dynamics).unwrap_or_default();
     ir::Robot {
         name: robot.name.clone(),
         doc: robot.doc.clone(),

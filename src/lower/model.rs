@@ -6,13 +6,17 @@ use crate::ir;
 
 /// The IR's form of a model.
 pub(super) fn model(dynamics: &typed::Dynamics) -> ir::Model {
-    let (a, b, c) = match &dynamics.motion {
-        Motion::Matrices { a, b, c } => (
+    let (a, b, c, enclosure) = match &dynamics.motion {
+        Motion::Matrices { a, b, c, enclosure } => (
             matrix(dynamics.states.len(), dynamics.states.len(), a),
             matrix(dynamics.states.len(), dynamics.inputs.len(), b),
             c.clone(),
+            enclosure.clone(),
         ),
-        Motion::Integrator { order } => integrator(*order, dynamics.inputs.len(), &dynamics.step),
+        Motion::Integrator { order } => {
+            let (a, b, c) = integrator(*order, dynamics.inputs.len(), &dynamics.step);
+            (a, b, c, None)
+        }
     };
     let none = || ir::Interval { lo: Rational::ZERO, hi: Rational::ZERO };
     ir::Model {
@@ -24,7 +28,7 @@ pub(super) fn model(dynamics: &typed::Dynamics) -> ir::Model {
         a,
         b,
         c,
-        enclosure: None,
+        enclosure,
         state_bounds: dynamics.state_bounds.iter().map(|b| b.as_ref().map(interval)).collect(),
         input_bounds: dynamics.input_bounds.iter().map(interval).collect(),
         mixed_bounds: dynamics.mixed_bounds.clone(),

@@ -46,6 +46,12 @@ pub(in crate::check) fn integrator_clash(integrator: Span, other: Span, what: &s
         .with_label(integrator, "the integrator")
 }
 
+pub(in crate::check) fn stiff_model(span: Span) -> Diagnostic {
+    let message = "the model changes too much within a step to be sampled";
+    Diagnostic::error("dosm::check::stiff_model", message, span, "its exponential is out of range")
+        .with_help("take a shorter step, or leave the fastest states out")
+}
+
 pub(in crate::check) fn bad_order(span: Span, order: i64, most: usize) -> Diagnostic {
     let message = format!("a chain has 1 to {most} integrators, not {order}");
     Diagnostic::error("dosm::check::bad_order", message, span, "not an order that there is")

@@ -170,26 +170,22 @@ pub(in crate::check) fn open_inequality(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::check::open_inequality", message, span, "not a closed half-space")
 }
 
-fn outside(code: &'static str, message: String, span: Span, workspace: Option<Span>) -> Diagnostic {
-    let diagnostic = Diagnostic::error(code, message, span, "outside");
-    match workspace {
-        Some(workspace) => diagnostic.with_label(workspace, "the workspace"),
-        None => diagnostic,
-    }
+fn outside(code: &'static str, message: String, span: Span, workspace: Span) -> Diagnostic {
+    Diagnostic::error(code, message, span, "outside").with_label(workspace, "the workspace")
 }
 
-pub(in crate::check) fn region_outside(name: &str, span: Span, workspace: Option<Span>) -> Diagnostic {
+pub(in crate::check) fn region_outside(name: &str, span: Span, workspace: Span) -> Diagnostic {
     let message = format!("the region `{name}` lies outside the workspace");
     outside("dosm::check::region_outside", message, span, workspace)
 }
 
-pub(in crate::check) fn blocker_outside(blocker: &Blocker, workspace: Option<Span>) -> Diagnostic {
+pub(in crate::check) fn blocker_outside(blocker: &Blocker, workspace: Span) -> Diagnostic {
     let message = format!("the {} `{}` lies outside the workspace", blocker_noun(blocker), blocker.name);
     let diagnostic = outside("dosm::check::blocker_outside", message, blocker.span, workspace);
     Diagnostic { severity: crate::diag::Severity::Warning, ..diagnostic }
 }
 
-pub(in crate::check) fn base_outside(name: &str, span: Span, workspace: Option<Span>) -> Diagnostic {
+pub(in crate::check) fn base_outside(name: &str, span: Span, workspace: Span) -> Diagnostic {
     let message = format!("the base `{name}` lies outside the workspace");
     outside("dosm::check::base_outside", message, span, workspace)
 }
