@@ -78,7 +78,7 @@ fn enclosed(m: &RationalMatrix, n: usize) -> Option<Hold> {
     for _ in 0..squarings {
         error = up(&(&error * (norm(&value) * Rational::from(2) + &error) + rounding(m.nrows())));
         value = (&value * &value).map(|x| cut(&x));
-        if !value.iter().all(|x| x.is_zero() || x.abs() < Rational::from(i64::MAX)) {
+        if !value.iter().all(|x| x.is_zero() || x.abs() < i64::MAX) {
             return None;
         }
     }
