@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use super::output::{Output, plain_error};
 use super::{Status, files};
-use crate::diag::printable;
+use crate::diag::{Diagnostics, printable};
+use crate::driver::{self, Overrides};
+use crate::source::SourceFile;
 
 /// The starter mission; `NAME` stands for the mission's name.
 const STARTER: &str = include_str!("starter.dosm");
@@ -13,14 +15,19 @@ const LONGEST_NAME: usize = 64;
 
 /// Writes the starter mission under a new name.
 pub fn new(name: &str, output: &Output) -> Status {
-    if !is_name(name) {
+    let text = STARTER.replace("NAME", name);
+    // Words of the language look like names; the parser knows them.
+    let readable = || {
+        driver::problem(&SourceFile::new("", text.as_str()), &Overrides::default(), &mut Diagnostics::new())
+    };
+    if !is_name(name) || readable().is_err() {
         let message = format!("`{}` is no name for a mission", printable(name));
         let help =
             "a name is made of letters, digits and `_`, starts with no digit, and has at most 64 of them";
         return output.fail(plain_error("dosm::cli::bad_name", message).with_help(help));
     }
     let path = PathBuf::from(format!("{name}.dosm"));
-    if let Err(problem) = files::create(&path, &STARTER.replace("NAME", name)) {
+    if let Err(problem) = files::create(&path, &text) {
         return output.fail(problem);
     }
     let file = path.display();

@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -43,6 +43,7 @@ pub struct Overseer {
     progress: Mutex<Progress>,
     /// Whether the main thread has taken over again: nobody else may end the process then.
     closing: Mutex<bool>,
+    thread: Mutex<Option<JoinHandle<()>>>,
 }
 
 impl Overseer {
@@ -55,18 +56,26 @@ impl Overseer {
             interrupted: AtomicBool::new(false),
             progress: Mutex::new(Progress::default()),
             closing: Mutex::new(false),
+            thread: Mutex::new(None),
         });
         let signalled = Arc::clone(&overseer);
         // Without a handler Ctrl-C still ends the process; results are written whole or not at all.
         let _ = ctrlc::set_handler(move || signalled.interrupted.store(true, Ordering::SeqCst));
         let watcher = Arc::clone(&overseer);
-        thread::spawn(move || watcher.oversee(show_progress && std::io::stderr().is_terminal(), &last_words));
+        let show = show_progress && std::io::stderr().is_terminal();
+        *lock(&overseer.thread) = Some(thread::spawn(move || watcher.oversee(show, &last_words)));
         overseer
     }
 
-    /// Gives the process back to the main thread: from here on it ends by itself.
+    /// Gives the process back to the main thread: from here on it ends by itself, and the progress
+    /// line is gone.
     pub fn close(&self) {
         *lock(&self.closing) = true;
+        if let Some(thread) = lock(&self.thread).take() {
+            thread.thread().unpark();
+            // It has nothing to say; if it panicked, only the progress line suffers.
+            let _ = thread.join();
+        }
     }
 
     /// Why the search has to stop, if it has to.
@@ -91,7 +100,7 @@ impl Overseer {
         let mut line = None;
         let mut overdue = None;
         loop {
-            thread::sleep(PERIOD);
+            thread::park_timeout(PERIOD);
             let closing = lock(&self.closing);
             if *closing {
                 return clear(line);

@@ -194,7 +194,8 @@ impl SourceCode for Excerpt {
         // Asked without context, miette wants to know where the span itself stands.
         let alone = before == 0 && after == 0;
         let start = if alone { span.offset() } else { self.lines[first].start };
-        let end = if alone { span.offset() + span.len() } else { self.lines[last].end };
+        // With its line break, so that an empty last line is a line too.
+        let end = if alone { span.offset() + span.len() } else { self.lines[last].end + 1 };
         let column = self.places.iter().find(|p| alone && p.start == span.offset()).map_or(0, |p| p.column);
         let number = self.lines[first].number;
         let data = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
