@@ -136,6 +136,10 @@ fn shown_lines(lines: &Lines, spans: &[(usize, usize)]) -> Vec<usize> {
     let mut numbers: Vec<usize> = spans.iter().flat_map(around).collect();
     numbers.sort_unstable();
     numbers.dedup();
+    // What follows the last line break is a line only when something is said about it.
+    let last = lines.count() - 1;
+    let said = spans.iter().any(|&(_, end)| lines.line_of(end) == last);
+    numbers.retain(|&n| n < last || said || lines.start(n) < lines.end(n));
     numbers
 }
 
@@ -230,6 +234,8 @@ mod tests {
     fn only_lines_near_a_label_are_shown() {
         let (text, marked) = excerpt("a\nb\nc\nd\ne\nf\n", &[(4, 5)], 80);
         assert_eq!((text.as_str(), marked), ("b\nc\nd\n", vec!["c".to_string()]));
+        assert_eq!(excerpt("a\nb\n", &[(2, 3)], 80).0, "a\nb\n");
+        assert_eq!(excerpt("a\nb\n", &[(4, 4)], 80).0, "b\n\n");
     }
 
     #[test]
