@@ -296,3 +296,42 @@ fn the_scanner_sees_what_it_is_for() {
     assert!(names("{println!(x)}", "println!") && !names("eprintln!(x)", "println!"));
     assert!(names("std::fs::read(p)", "std::fs") && !names("std::fsx", "std::fs"));
 }
+
+/// Codes that no file of the corpus can give, with what tests them instead.
+const WITHOUT_MISSION: [(&str, &str); 13] = [
+    ("dosm::cli::bad_name", "tests/cli.rs"),
+    ("dosm::cli::unreadable", "tests/cli.rs"),
+    ("dosm::cli::unwritable", "tests/cli.rs"),
+    ("dosm::cli::usage", "tests/cli.rs"),
+    ("dosm::plan::malformed", "tests/cli.rs"),
+    ("dosm::check::set_value", "src/check"),
+    ("dosm::check::unknown_param", "tests/cli.rs"),
+    ("dosm::syntax::text_too_long", "tests/syntax"),
+    ("dosm::syntax::too_many_errors", "tests/syntax, because it comes after all that is drawn"),
+    ("dosm::tube::narrow_bounds", "src/tube, because it takes bounds that are not supported yet"),
+    ("dosm::check::unknown_unit", "behind the parser, which refuses it first"),
+    ("dosm::ir::invalid", "a bug by definition"),
+    ("dosm::check::misplaced_table", "behind the parser, which refuses it first"),
+];
+
+/// The diagnostic codes that a text names.
+fn codes(text: &str) -> BTreeSet<String> {
+    let part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' || c == ':';
+    text.match_indices("dosm::")
+        .map(|(at, _)| text[at..].chars().take_while(|&c| part(c)).collect::<String>())
+        .filter(|code| code.matches("::").count() == 2 && !code.ends_with(':'))
+        .collect()
+}
+
+#[test]
+fn every_diagnostic_is_shown_by_a_mission() {
+    let declared: BTreeSet<String> = product().iter().flat_map(|s| codes(&s.code())).collect();
+    let shown: BTreeSet<String> =
+        files("tests/missions", "snap").iter().flat_map(|s| codes(&s.text)).collect();
+    let excused = |code: &String| WITHOUT_MISSION.iter().any(|(c, _)| c == code);
+    let missing: Vec<&String> = declared.difference(&shown).filter(|c| !excused(c)).collect();
+    assert!(missing.is_empty(), "no mission under tests/missions shows {missing:#?}");
+    let gone: Vec<&&str> =
+        WITHOUT_MISSION.iter().map(|(c, _)| c).filter(|c| !declared.contains(**c)).collect();
+    assert!(gone.is_empty(), "excused, but no longer there: {gone:?}");
+}
