@@ -44,17 +44,17 @@ impl Watch for Patient {
 }
 
 /// The mission's text; bytes that are no text stop at the diagnostic that says so.
-fn open(path: &Path, bytes: &[u8]) -> Result<SourceFile, (SourceFile, Diagnostic)> {
+fn open(path: &Path, bytes: &[u8]) -> Result<SourceFile, Box<(SourceFile, Diagnostic)>> {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     match syntax::decode(bytes) {
         Ok(text) => Ok(SourceFile::new(name, text)),
-        Err(problem) => Err((SourceFile::new(name, String::from_utf8_lossy(bytes)), problem)),
+        Err(problem) => Err(Box::new((SourceFile::new(name, String::from_utf8_lossy(bytes)), problem))),
     }
 }
 
 /// A mission that has no errors.
 fn load(path: &Path, bytes: &[u8]) -> Result<(Mission, SourceFile, Diagnostics), String> {
-    let source = open(path, bytes).map_err(|(_, problem)| problem.message)?;
+    let source = open(path, bytes).map_err(|wrong| wrong.1.message)?;
     let mut diagnostics = Diagnostics::new();
     match driver::load(&source, &Overrides::default(), &mut diagnostics) {
         Ok(mission) => Ok((mission, source, diagnostics)),
@@ -79,7 +79,7 @@ fn snapshot(path: &Path, stage: &str, text: &str) {
 
 /// What the text says.
 fn tree(path: &Path, bytes: Vec<u8>) -> Outcome {
-    let source = open(path, &bytes).map_err(|(_, problem)| problem.message)?;
+    let source = open(path, &bytes).map_err(|wrong| wrong.1.message)?;
     let mut diagnostics = Diagnostics::new();
     let file = syntax::parse(&source, &mut diagnostics).map_err(|_| "it does not parse")?;
     snapshot(path, "tree", &syntax::dump(&file));
@@ -96,7 +96,7 @@ fn ir(path: &Path, bytes: Vec<u8>) -> Outcome {
 /// What is said about a mission with something wrong in it.
 fn refused(path: &Path, bytes: Vec<u8>) -> Outcome {
     let (source, found) = match open(path, &bytes) {
-        Err((source, problem)) => (source, vec![problem]),
+        Err(wrong) => (wrong.0, vec![wrong.1]),
         Ok(source) => {
             let mut diagnostics = Diagnostics::new();
             let loaded = driver::load(&source, &Overrides::default(), &mut diagnostics);

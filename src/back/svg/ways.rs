@@ -1,5 +1,6 @@
 //! What moves: each robot's nominal way with its steps, and the tube around it.
 
+use std::cmp::Ordering;
 use std::fmt::Write;
 
 use super::canvas::{Canvas, Pixel, escape, px};
@@ -151,7 +152,8 @@ fn open(points: &[Pixel]) -> String {
 fn arrow(canvas: &mut Canvas, color: &str, from: Pixel, to: Pixel) {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx.hypot(dy);
-    if !(length >= 22.0) {
+    // Not a number is no length either.
+    if length.partial_cmp(&22.0).is_none_or(Ordering::is_lt) {
         return;
     }
     let (ux, uy) = (dx / length, dy / length);
