@@ -19,6 +19,10 @@ use super::robots::{Refusal, Robots, Trajectory, systems};
 use super::sat::{Answer, Model, Sat};
 use super::{Options, Outcome, Progress, Reason, Statistics};
 
+/// So many candidates that numbers can't decide, and a length is left undecided: each blocks itself
+/// alone, and the next length may be easy.
+const PATIENCE: usize = 30;
+
 /// A search over the lengths of the horizon.
 pub struct Search<'a> {
     problem: &'a Problem,
@@ -69,7 +73,7 @@ impl<'a> Search<'a> {
                 length,
                 closed: Switch::ALL.to_vec(),
                 demanded: HashSet::new(),
-                undecided: false,
+                undecided: 0,
             };
             match attempt.run() {
                 End::Found(found) => {
@@ -115,7 +119,8 @@ struct Attempt<'s, 'p, 'e> {
     /// The switches that are still off.
     closed: Vec<Switch>,
     demanded: HashSet<String>,
-    undecided: bool,
+    /// How many candidates numbers could not decide.
+    undecided: usize,
 }
 
 impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
@@ -127,6 +132,9 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
             let watch = &self.search.options.watch;
             if watch.stop() {
                 return End::Stopped;
+            }
+            if self.undecided > PATIENCE {
+                return End::Undecided;
             }
             let statistics = &self.search.statistics;
             let (candidates, lemmas) = (statistics.candidates, statistics.lemmas);
@@ -170,7 +178,7 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
             self.search.statistics.time_encode += self.search.now() - start;
             return None;
         }
-        if self.undecided || self.encoder.is_incomplete() {
+        if self.undecided > 0 || self.encoder.is_incomplete() {
             return Some(End::Undecided);
         }
         let rests_on_length = core.contains(&self.encoder.last(self.length).var());
@@ -217,7 +225,7 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         let lits: Vec<Lit> = refusal.constraints.iter().map(|(lit, _)| *lit).collect();
         let Some(conflict) = &refusal.conflict else {
             // Its literals forbid every superset, so a refutation says nothing any more.
-            self.undecided = true;
+            self.undecided += 1;
             self.encoder.learn(&lits, Some((self.length, back)));
             return;
         };
@@ -267,7 +275,7 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         }
         if !new {
             // What was demanded holds and yet is violated: the numbers don't carry this candidate.
-            self.undecided = true;
+            self.undecided += 1;
             let lits: Vec<Lit> = justification.leaves.iter().map(|(lit, _)| *lit).collect();
             self.encoder.learn(&lits, Some((self.length, back)));
         }

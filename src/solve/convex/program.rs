@@ -294,7 +294,6 @@ impl<'a> Program<'a> {
         offsets: &dyn Fn(Face) -> f64,
     ) -> Verdict {
         self.reset();
-        self.close_loop(loop_start);
         for (at, (_, leaf)) in constraints.iter().enumerate() {
             match *leaf {
                 Leaf::HalfSpace { robot, step, half_space } => {
@@ -311,12 +310,19 @@ impl<'a> Program<'a> {
                 }
             }
         }
+        // First without the loop: a contradiction that doesn't need it holds for every lasso.
+        self.apply();
+        let open = self.decide(constraints, loop_start);
+        if !matches!(open, Verdict::Feasible) {
+            return open;
+        }
+        self.close_loop(loop_start);
         self.apply();
         self.decide(constraints, loop_start)
     }
 
     fn decide(&mut self, constraints: &[(Lit, Leaf)], loop_start: usize) -> Verdict {
-        for _ in 0..2 {
+        for attempt in 0..3 {
             match self.simplex.check() {
                 Answer::Feasible => return Verdict::Feasible,
                 Answer::Infeasible(terms) => {
@@ -326,9 +332,10 @@ impl<'a> Program<'a> {
                 }
                 Answer::Undecided => {}
             }
-            // A contradiction that does not survive, or a lost basis: once more from fresh numbers.
-            if !self.simplex.refactor() {
-                break;
+            // A contradiction that does not survive, or a lost basis: once more from fresh numbers,
+            // then from the beginning.
+            if attempt > 0 || !self.simplex.refactor() {
+                self.simplex.restart();
             }
         }
         Verdict::Undecided

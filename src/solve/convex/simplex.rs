@@ -10,11 +10,16 @@ use nalgebra::DMatrix;
 /// How far a form may be outside its bounds; the search moves all bounds inwards by far more.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Entries of the tableau below this are taken for rounding.
-const PIVOT: f64 = 1e-9;
+/// Entries of a row below this share of its largest one (or of 1) are not pivoted on: they may be
+/// rounding, and the tableau grows by their inverse.
+const PIVOT: f64 = 1e-7;
+
+/// Entries of a row below this share of its largest one are taken for rounding in a certificate;
+/// the certificate is checked against the dynamics afterwards.
+const NOISE: f64 = 1e-12;
 
 /// After this many pivots the tableau is computed anew from the forms.
-const REFACTOR: usize = 100;
+const REFACTOR: usize = 50;
 
 /// A form of a simplex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -212,8 +217,9 @@ impl Simplex {
     /// (or the first).
     fn entering(&self, row: usize, up: bool, first: bool) -> Option<usize> {
         let mut best: Option<(usize, f64)> = None;
+        let least = PIVOT * largest(&self.tableau[row]).max(1.0);
         for (column, &entry) in self.tableau[row].iter().enumerate() {
-            if entry.abs() <= PIVOT || !self.can_move(self.nonbasic[column], (entry > 0.0) == up) {
+            if entry.abs() <= least || !self.can_move(self.nonbasic[column], (entry > 0.0) == up) {
                 continue;
             }
             let better = match best {
@@ -278,12 +284,25 @@ impl Simplex {
             }
         };
         term(self.basic[row], !up, 1.0);
+        let least = NOISE * largest(&self.tableau[row]);
         for (column, &entry) in self.tableau[row].iter().enumerate() {
-            if entry.abs() > PIVOT {
+            if entry.abs() > least {
                 term(self.nonbasic[column], (entry > 0.0) == up, entry.abs());
             }
         }
         terms
+    }
+
+    /// Goes back to the basis of all forms, whose tableau is the forms themselves.
+    pub fn restart(&mut self) {
+        let n = self.columns;
+        self.pivots = 0;
+        self.tableau = self.forms.clone();
+        self.basic = (n..n + self.forms.len()).collect();
+        self.nonbasic = (0..n).collect();
+        let places = (0..n).map(Place::Nonbasic).chain((0..self.forms.len()).map(Place::Basic));
+        self.place = places.collect();
+        self.value[..n].fill(0.0);
     }
 
     /// Computes the tableau anew for the present basis. False when the basis is numerically singular.
@@ -310,6 +329,10 @@ impl Simplex {
         self.compute_basic();
         true
     }
+}
+
+fn largest(row: &[f64]) -> f64 {
+    row.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
 #[cfg(test)]
