@@ -90,8 +90,7 @@ impl Resolved<'_> {
 
 /// Resolves a plan, or notes what is wrong with its form.
 pub(super) fn resolve<'a>(problem: &'a Problem, plan: &'a Plan, ledger: &mut Ledger) -> Option<Resolved<'a>> {
-    let outcome = Resolver { problem, steps: plan.length.saturating_add(1) }.plan(plan);
-    match outcome {
+    match Resolver::new(problem, plan.length.saturating_add(1)).plan(plan) {
         Ok(resolved) => {
             ledger.claim(Kind::Form, true, Default::default);
             Some(resolved)
@@ -130,9 +129,24 @@ struct Resolver<'a> {
     problem: &'a Problem,
     /// L + 1.
     steps: usize,
+    robots: BTreeMap<&'a str, RobotId>,
+    regions: BTreeMap<&'a str, RegionId>,
+    blockers: BTreeMap<&'a str, BlockerId>,
+    bases: BTreeMap<&'a str, BaseId>,
 }
 
 impl<'a> Resolver<'a> {
+    fn new(problem: &'a Problem, steps: usize) -> Resolver<'a> {
+        Resolver {
+            problem,
+            steps,
+            robots: problem.robots.iter().map(|(id, r)| (r.name.as_str(), id)).collect(),
+            regions: problem.regions.iter().map(|(id, r)| (r.name.as_str(), id)).collect(),
+            blockers: problem.blockers.iter().map(|(id, b)| (b.name.as_str(), id)).collect(),
+            bases: problem.bases.iter().map(|(id, b)| (b.name.as_str(), id)).collect(),
+        }
+    }
+
     fn plan(&self, plan: &'a Plan) -> Result<Resolved<'a>> {
         if plan.length < 1 {
             return Err(Malformed::new("the length must be at least 1"));
@@ -253,8 +267,7 @@ impl<'a> Resolver<'a> {
 
     fn link(&self, link: &plan::Link) -> Result<Link> {
         let name = format!("{} to {}", link.from, link.to);
-        let base =
-            || self.problem.bases.iter().find(|(_, b)| b.name == link.to).map(|(id, _)| Node::Base(id));
+        let base = || self.bases.get(link.to.as_str()).map(|&id| Node::Base(id));
         let to = self.find_robot(&link.to).map(Node::Robot).or_else(base);
         let (Some(from), Some(to)) = (self.find_robot(&link.from), to) else {
             return Err(Malformed::new("there is no such robot or base").of_robot(&name));
@@ -297,17 +310,17 @@ impl<'a> Resolver<'a> {
     }
 
     fn find_robot(&self, name: &str) -> Option<RobotId> {
-        self.problem.robots.iter().find(|(_, r)| r.name == name).map(|(id, _)| id)
+        self.robots.get(name).copied()
     }
 
     fn region(&self, name: &str) -> Result<RegionId> {
-        let found = self.problem.regions.iter().find(|(_, r)| r.name == name);
-        found.map(|(id, _)| id).ok_or_else(|| Malformed::new("there is no such region").about(name))
+        let found = self.regions.get(name).copied();
+        found.ok_or_else(|| Malformed::new("there is no such region").about(name))
     }
 
     fn blocker(&self, name: &str) -> Result<BlockerId> {
-        let found = self.problem.blockers.iter().find(|(_, b)| b.name == name);
-        found.map(|(id, _)| id).ok_or_else(|| Malformed::new("there is no such blocker").about(name))
+        let found = self.blockers.get(name).copied();
+        found.ok_or_else(|| Malformed::new("there is no such blocker").about(name))
     }
 
     fn planes(&self, separators: &[plan::Separator], shape: &Shape) -> Result<Vec<Plane>> {

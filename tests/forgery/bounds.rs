@@ -209,3 +209,53 @@ fn the_objective_s_value_is_computed_again() {
         refused(&problem, &plan, Kind::Objective);
     }
 }
+
+#[test]
+fn erratum_p5_a_side_serves_until_the_next_step() {
+    // R2 goes round R1's corner: along x they are apart up to step 1, along y from there on.
+    let scene = Scene {
+        robots: vec![("R1", 0, vec![[4.0, 4.0]; 2]), ("R2", 0, vec![[6.0, 4.0], [4.0, 6.0]])],
+        ..Scene::default()
+    };
+    let (mut problem, plan) = scene.build();
+    problem.separation = Some(exact(0.5));
+    let with = |axes: [usize; 4]| {
+        let side = |axis| vec![Apart { pair: ("R2".into(), "R1".into()), axis, sign: 1 }];
+        Plan { separation: axes.map(side).to_vec(), ..plan.clone() }
+    };
+    holds(&problem, &with([0, 1, 1, 0]));
+    refused(&problem, &with([0, 0, 1, 0]), Kind::Separation);
+    refused(&problem, &with([0, 1, 1, 1]), Kind::Separation);
+}
+
+#[test]
+fn threat_6_the_start_is_measured_from_the_box_s_own_centre() {
+    let (mut problem, plan) =
+        hovering(&[[4.0, 4.0]], Scene { theta: vec![[-0.0625, 0.1875]], ..Scene::default() });
+    for (offset, right) in [(0.1875, true), (-0.0625, true), (0.1876, false), (-0.0626, false)] {
+        problem.robots[RobotId::new(0)].start[0] = exact(4.0 + offset);
+        assert_eq!(verify(&problem, &plan).holds(), right, "{offset}");
+    }
+}
+
+#[test]
+fn the_tube_starts_with_the_disturbance_itself() {
+    // Half of every matrix satisfies the recursion just as well, for an error half the true one.
+    let (problem, mut plan) = hovering(&[[4.0, 4.0]], Scene::default());
+    let tube = &mut plan.tubes[0];
+    for x in tube.d.iter_mut().chain(&mut tube.m).flatten().flatten() {
+        *x /= 2.0;
+    }
+    refused(&problem, &plan, Kind::Tube);
+}
+
+#[test]
+fn the_workspace_holds_the_tube() {
+    let h = half_tube();
+    for (x, right) in [(h, true), (h - 1e-12, false), (0.0, false)] {
+        let (problem, plan) = hovering(&[[x, 4.0]], Scene::default());
+        let report = verify(&problem, &plan);
+        assert_eq!(report.holds(), right, "{x}: {report}");
+        assert_eq!(report.check(Kind::Workspace).unwrap().holds(), right);
+    }
+}

@@ -220,6 +220,14 @@ fn threat_26_a_plan_of_another_mission_is_refused() {
     refused_with(&|p| p.tubes[1].dynamics = "Rover0".into(), Kind::Form);
     refused_with(&|p| p.robots[0].z[3][2] = f64::INFINITY, Kind::Form);
     refused_with(&|p| p.tubes[0].m[1][0][0] = f64::NAN, Kind::Form);
+    refused_with(&|p| p.robots[0].z.push(vec![5.0, 0.0, 8.25, 0.0]), Kind::Form);
+    refused_with(&|p| drop(p.robots[0].z.pop()), Kind::Form);
+    refused_with(&|p| drop(p.robots[0].v.pop()), Kind::Form);
+    refused_with(&|p| p.robots[0].v[0].push(0.0), Kind::Form);
+    refused_with(&|p| drop(p.links.as_mut().unwrap().pop()), Kind::Form);
+    refused_with(&|p| drop(p.separation.pop()), Kind::Form);
+    refused_with(&|p| p.robots[0].regions.get_mut("pi1").unwrap().truncate(3), Kind::Form);
+    refused_with(&|p| p.robots[0].regions.get_mut("pi1").unwrap()[1] = Label::Unknown, Kind::Regions);
     refused_with(&|p| drop(p.robots[0].clear.remove("wall")), Kind::Form);
     refused_with(&|p| drop(p.robots[0].clear.insert("J9".into(), vec![])), Kind::Form);
     refused_with(&|p| drop(p.robots[0].regions.insert("pi9".into(), vec![])), Kind::Form);
