@@ -405,7 +405,7 @@ mod tests {
             }
             let gap = Rational::from_f64(up).unwrap() - &exact;
             let middle = &exact + &gap * Rational::ratio(1, 2);
-            assert_eq!(middle.to_f64(), if x.to_bits() % 2 == 0 { x } else { up });
+            assert_eq!(middle.to_f64(), if x.to_bits().is_multiple_of(2) { x } else { up });
             assert_eq!((&middle - &gap * &eps).to_f64(), x);
             assert_eq!((&middle + &gap * &eps).to_f64(), up);
         }
