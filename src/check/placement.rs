@@ -2,7 +2,9 @@
 
 use crate::check::{Checker, messages};
 use crate::diag::{Diagnostic, Severity};
+use crate::exact::{Rational, dot};
 use crate::geometry::Polytope;
+use crate::ir::Piece;
 use crate::source::Span;
 
 impl Checker<'_> {
@@ -18,7 +20,7 @@ impl Checker<'_> {
     fn regions_outside(&mut self, workspace: &Polytope, place: Span) {
         let mut found: Vec<(Span, Diagnostic)> = Vec::new();
         for region in self.regions.iter().flatten() {
-            if !region.shape.pieces.iter().any(|piece| piece.overlaps(workspace)) {
+            if region.shape.pieces.iter().all(|piece| is_outside(piece, workspace)) {
                 found.push((region.span, messages::region_outside(&region.name, region.span, place)));
             }
         }
@@ -28,7 +30,7 @@ impl Checker<'_> {
     fn blockers_outside(&mut self, workspace: &Polytope, place: Span) {
         let mut found: Vec<(Span, Diagnostic)> = Vec::new();
         for blocker in self.blockers.iter().flatten() {
-            if !blocker.shape.pieces.iter().any(|piece| piece.overlaps(workspace)) {
+            if blocker.shape.pieces.iter().all(|piece| is_outside(piece, workspace)) {
                 found.push((blocker.span, messages::blocker_outside(blocker, place)));
             }
         }
@@ -43,7 +45,7 @@ impl Checker<'_> {
             }
             let blocked = self.blockers.iter().flatten().find(|blocker| {
                 blocker.kind.blocks_links()
-                    && blocker.shape.pieces.iter().any(|piece| piece.contains(&base.position))
+                    && blocker.shape.pieces.iter().any(|piece| contains(piece, &base.position))
             });
             if let Some(blocker) = blocked {
                 found.push((base.span, messages::base_in_blocker(&base.name, base.span, blocker)));
@@ -63,5 +65,63 @@ impl Checker<'_> {
                 Severity::Warning => self.warn(diagnostic),
             }
         }
+    }
+}
+
+/// Whether a piece has no interior point in common with the workspace. A ball that is outside only
+/// beyond an edge or a corner is not seen to be.
+fn is_outside(piece: &Piece, workspace: &Polytope) -> bool {
+    match piece {
+        Piece::Polytope(polytope) => !polytope.overlaps(workspace),
+        Piece::Ball { center, spread, radius } => workspace.facets.iter().any(|facet| {
+            let size: Rational = facet.normal.iter().zip(spread).map(|(a, s)| a.abs() * s).sum();
+            let beyond = dot(&facet.normal, center) - size - &facet.offset;
+            !beyond.is_negative() && &beyond * &beyond >= radius * radius * dot(&facet.normal, &facet.normal)
+        }),
+    }
+}
+
+/// Whether a point may lie in a closed piece, given that its centre may be uncertain.
+fn contains(piece: &Piece, point: &[Rational]) -> bool {
+    match piece {
+        Piece::Polytope(polytope) => polytope.contains(point),
+        Piece::Ball { center, spread, radius } => {
+            let beyond = |((p, c), s): ((&Rational, &Rational), &Rational)| {
+                let distance = (p - c).abs() - s;
+                if distance.is_negative() { Rational::ZERO } else { &distance * &distance }
+            };
+            let square: Rational = point.iter().zip(center).zip(spread).map(beyond).sum();
+            square <= radius * radius
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: i64, y: i64) -> Vec<Rational> {
+        vec![Rational::from(x), Rational::from(y)]
+    }
+
+    fn disc(x: i64, y: i64, radius: i64, spread: i64) -> Piece {
+        Piece::Ball { center: point(x, y), spread: point(spread, spread), radius: Rational::from(radius) }
+    }
+
+    #[test]
+    fn a_disc_holds_its_edge_and_not_the_corners_of_its_box() {
+        assert!(contains(&disc(0, 0, 5, 0), &point(3, 4)));
+        assert!(!contains(&disc(0, 0, 5, 0), &point(4, 4)));
+        assert!(contains(&disc(0, 0, 5, 1), &point(4, 4)));
+        assert!(!contains(&disc(0, 0, 5, 1), &point(5, 5)));
+    }
+
+    #[test]
+    fn a_disc_that_only_touches_the_workspace_is_outside() {
+        let workspace = Polytope::from_box(&point(0, 0), &point(10, 10));
+        assert!(is_outside(&disc(12, 5, 2, 0), &workspace));
+        assert!(!is_outside(&disc(12, 5, 2, 1), &workspace));
+        assert!(!is_outside(&disc(11, 5, 2, 0), &workspace));
+        assert!(!is_outside(&disc(5, 5, 1, 0), &workspace));
     }
 }

@@ -16,6 +16,9 @@ use crate::syntax::ast::{
 /// The most corners of a polygon, points of a hull or half-spaces of a `where`.
 pub(super) const MAX_PARTS: usize = 256;
 
+/// The same in space, where exact hulls take the cube of it.
+const MAX_PARTS_IN_SPACE: usize = 48;
+
 /// What a shape is for: uncertain balls make sense only as something to stay away from.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Role {
@@ -46,18 +49,13 @@ impl Checker<'_> {
 
     fn workspace_shape(&mut self, shape: &Shape, span: Span) -> Result<typed::Workspace, Reported> {
         self.dimension = shape.pieces.iter().find_map(points_dimension).unwrap_or(2);
-        if self.dimension == 3 {
-            let reported = self.report(messages::unsupported("a workspace in three dimensions", shape.span));
-            return Err(reported);
-        }
         let [piece] = &shape.pieces[..] else {
             return Err(self.report(messages::workspace_union(shape.span)));
         };
-        if matches!(&piece.kind, PieceKind::Ball { norm, disc, .. } if is_euclidean(norm, *disc)) {
-            return Err(self.report(messages::round_workspace(piece.span)));
+        match self.piece(piece, Role::Target, &Scope::default())? {
+            typed::Piece::Polytope(polytope) => Ok(typed::Workspace { polytope, span }),
+            typed::Piece::Ball { .. } => Err(self.report(messages::round_workspace(piece.span))),
         }
-        let polytope = self.piece(piece, Role::Target, &Scope::default())?;
-        Ok(typed::Workspace { polytope, span })
     }
 
     /// Regions, obstacles, jammers and bases, members of families one by one.
@@ -133,21 +131,24 @@ impl Checker<'_> {
         Ok(typed::Shape { pieces: pieces.into_iter().collect::<Result<_, _>>()? })
     }
 
-    fn piece(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<Polytope, Reported> {
-        let polytope = self.polytope(piece, role, scope)?;
-        let facets = polytope.facets.iter().flat_map(|f| f.normal.iter().chain([&f.offset]));
-        if facets.chain(polytope.vertices.iter().flatten()).all(in_range) {
-            return Ok(polytope);
+    fn piece(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<typed::Piece, Reported> {
+        let shape = match &piece.kind {
+            PieceKind::Ball { center, radius, norm, disc } => {
+                self.ball(center, radius, norm, *disc, role, scope)?
+            }
+            _ => typed::Piece::Polytope(self.polytope(piece, scope)?),
+        };
+        if is_in_range(&shape) {
+            Ok(shape)
+        } else {
+            Err(self.report(messages::number_out_of_range(piece.span)))
         }
-        Err(self.report(messages::number_out_of_range(piece.span)))
     }
 
-    fn polytope(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<Polytope, Reported> {
+    fn polytope(&mut self, piece: &Piece, scope: &Scope) -> Result<Polytope, Reported> {
         match &piece.kind {
             PieceKind::Box(p, q) => self.box_shape(p, q, scope, piece.span),
-            PieceKind::Ball { center, radius, norm, disc } => {
-                self.ball(center, radius, norm, *disc, role, scope)
-            }
+            PieceKind::Ball { .. } => Err(self.report(messages::round_workspace(piece.span))),
             PieceKind::Polygon(points) => {
                 if self.dimension != 2 {
                     return Err(self.report(messages::polygon_in_space(piece.span)));
@@ -165,14 +166,19 @@ impl Checker<'_> {
         }
     }
 
+    /// The most corners, points or half-spaces of a piece.
+    fn most_parts(&self) -> usize {
+        if self.dimension == 2 { MAX_PARTS } else { MAX_PARTS_IN_SPACE }
+    }
+
     fn points(
         &mut self,
         points: &[Point],
         span: Span,
         scope: &Scope,
     ) -> Result<Vec<Vec<Rational>>, Reported> {
-        if points.len() > MAX_PARTS {
-            return Err(self.report(messages::too_many_parts(span, points.len(), MAX_PARTS)));
+        if points.len() > self.most_parts() {
+            return Err(self.report(messages::too_many_parts(span, points.len(), self.most_parts())));
         }
         let all: Vec<_> = points.iter().map(|p| self.point(p, scope)).collect();
         all.into_iter().collect()
@@ -228,7 +234,7 @@ impl Checker<'_> {
         disc: bool,
         role: Role,
         scope: &Scope,
-    ) -> Result<Polytope, Reported> {
+    ) -> Result<typed::Piece, Reported> {
         let norm = self.ball_norm(norm, disc, center.span)?;
         let uncertain = center.coordinates.iter().chain([radius]).find_map(|c| c.uncertainty.as_ref());
         if let (Some(uncertainty), Role::Target) = (uncertain, role) {
@@ -249,10 +255,14 @@ impl Checker<'_> {
         {
             return Err(self.report(messages::negative_uncertainty(uncertainty.span)));
         }
-        match norm {
-            BallNorm::Infinity => Ok(cube(&middle, &spread, &(size + growth))),
-            BallNorm::One => self.cross_polytope(&middle, &spread, &(size + growth), center.span),
-        }
+        let radius = size + growth;
+        Ok(match norm {
+            BallNorm::Infinity => typed::Piece::Polytope(cube(&middle, &spread, &radius)),
+            BallNorm::One => {
+                typed::Piece::Polytope(self.cross_polytope(&middle, &spread, &radius, center.span)?)
+            }
+            BallNorm::Two => typed::Piece::Ball { center: middle, spread, radius },
+        })
     }
 
     fn ball_norm(&mut self, norm: &Option<Norm>, disc: bool, span: Span) -> Result<BallNorm, Reported> {
@@ -261,12 +271,13 @@ impl Checker<'_> {
         {
             return Err(self.report(messages::unknown_norm(norm.value.span, &norm.value.value)));
         }
-        if is_euclidean(norm, disc) {
-            let at = norm.as_ref().map_or(span, |n| n.value.span);
-            return Err(self.report(messages::unsupported("a Euclidean ball", at)));
+        if disc && self.dimension != 2 {
+            return Err(self.report(messages::disc_in_space(span)));
         }
         match norm {
+            None if disc => Ok(BallNorm::Two),
             None => Ok(BallNorm::Infinity),
+            Some(norm) if norm.value.value == 2 => Ok(BallNorm::Two),
             Some(norm) if norm.value.value == 1 => Ok(BallNorm::One),
             Some(norm) => Err(self.report(messages::unknown_norm(norm.value.span, &norm.value.value))),
         }
@@ -298,8 +309,8 @@ impl Checker<'_> {
         scope: &Scope,
         span: Span,
     ) -> Result<Polytope, Reported> {
-        if inequalities.len() > MAX_PARTS {
-            return Err(self.report(messages::too_many_parts(span, inequalities.len(), MAX_PARTS)));
+        if inequalities.len() > self.most_parts() {
+            return Err(self.report(messages::too_many_parts(span, inequalities.len(), self.most_parts())));
         }
         let axes = ["x", "y", "z"].iter().take(self.dimension);
         let scope = Scope {
@@ -347,14 +358,24 @@ impl Checker<'_> {
     }
 }
 
-/// The norms whose balls are polytopes.
+/// The norms that balls may have.
 enum BallNorm {
     One,
+    Two,
     Infinity,
 }
 
-fn is_euclidean(norm: &Option<Norm>, disc: bool) -> bool {
-    disc || norm.as_ref().is_some_and(|n| n.value.value == 2)
+/// Whether every number of a piece is in range; corners and sums are computed, so they may not be.
+fn is_in_range(piece: &typed::Piece) -> bool {
+    match piece {
+        typed::Piece::Polytope(polytope) => {
+            let facets = polytope.facets.iter().flat_map(|f| f.normal.iter().chain([&f.offset]));
+            facets.chain(polytope.vertices.iter().flatten()).all(in_range)
+        }
+        typed::Piece::Ball { center, spread, radius } => {
+            center.iter().chain(spread).chain([radius]).all(in_range)
+        }
+    }
 }
 
 fn cube(center: &[Rational], spread: &[Rational], radius: &Rational) -> Polytope {

@@ -358,6 +358,22 @@ fn uncertain_balls_are_as_large_as_they_may_be() {
 }
 
 #[test]
+fn discs_stay_round_and_space_has_three_axes() {
+    let disc = problem(&small("jammer J = disc (5 +/- 0.5, 4) radius 1 +/- 0.25"), &[]);
+    let ir::Piece::Ball { center, spread, radius } = &disc.blockers.values().next().unwrap().shape.pieces[0]
+    else {
+        panic!("a ball")
+    };
+    assert_eq!((&center[0], &spread[0], radius), (&5.into(), &Rational::ratio(1, 2), &Rational::ratio(5, 4)));
+    let space = problem(include_str!("../../tests/missions/ok/space.dosm"), &[]);
+    assert_eq!((space.dimension, space.regions.values().next().unwrap().shape.pieces.len()), (3, 1));
+    let model = space.models.values().next().unwrap();
+    assert_eq!((model.n(), model.m(), &model.position[..]), (6, 3, &[0, 2, 4][..]));
+    let flat = "dosm 1 workspace box (0, 0, 0) .. (9, 9, 9) jammer J = disc (5, 5, 5) radius 1";
+    assert!(codes(flat).contains(&"wrong_point".to_string()));
+}
+
+#[test]
 fn long_chains_of_lets_and_defines_need_no_stack() {
     let mut text = small("let a0 = 1\n define d0 = R1 in depot\n");
     for i in 1..3000 {

@@ -9,6 +9,7 @@ use crate::entity::Table;
 use crate::entity_id;
 use crate::exact::Rational;
 use crate::geometry::{HalfSpace, Polytope};
+pub use crate::ir::Piece;
 use crate::ir::{
     Atom, BaseId, BlockerId, BlockerKind, Connectivity, Enclosure, Objective, RegionId, RobotId,
 };
@@ -76,7 +77,7 @@ pub struct Workspace {
 #[derive(Clone, Debug)]
 pub struct Shape {
     /// The operands of `or`, in order.
-    pub pieces: Vec<Polytope>,
+    pub pieces: Vec<Piece>,
 }
 
 /// A region of interest.

@@ -51,7 +51,7 @@ fn used_dynamics(mission: &typed::Mission) -> Vec<typed::DynamicsId> {
 }
 
 fn shape(shape: &typed::Shape) -> ir::Shape {
-    ir::Shape { pieces: shape.pieces.iter().cloned().map(ir::Piece::Polytope).collect() }
+    ir::Shape { pieces: shape.pieces.clone() }
 }
 
 fn region(region: &typed::Region) -> ir::Region {

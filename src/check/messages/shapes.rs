@@ -44,6 +44,12 @@ pub(in crate::check) fn polygon_in_space(span: Span) -> Diagnostic {
     .with_help("use `hull` in space")
 }
 
+pub(in crate::check) fn disc_in_space(span: Span) -> Diagnostic {
+    let message = "a disc lies in the plane";
+    Diagnostic::error("dosm::check::wrong_point", message, span, "the workspace has 3 dimensions")
+        .with_help("write `ball … radius … norm 2` in space")
+}
+
 pub(in crate::check) fn misplaced_uncertainty(span: Span) -> Diagnostic {
     let message = "only a ball's centre and radius may be uncertain";
     Diagnostic::error("dosm::check::misplaced_uncertainty", message, span, "not here")
