@@ -10,7 +10,7 @@ use crate::syntax::ast::{
 };
 
 /// The most nodes and terms that all formulas together may have once quantifiers are written out.
-const MAX_FORMULA_SIZE: usize = 1_000_000;
+const MAX_FORMULA_SIZE: usize = 250_000;
 
 type Built = Result<typed::FormulaId, Reported>;
 
