@@ -298,7 +298,7 @@ fn the_scanner_sees_what_it_is_for() {
 }
 
 /// Codes that no file of the corpus can give, with what tests them instead.
-const WITHOUT_MISSION: [(&str, &str); 13] = [
+const WITHOUT_MISSION: [(&str, &str); 12] = [
     ("dosm::cli::bad_name", "tests/cli.rs"),
     ("dosm::cli::unreadable", "tests/cli.rs"),
     ("dosm::cli::unwritable", "tests/cli.rs"),
@@ -308,7 +308,6 @@ const WITHOUT_MISSION: [(&str, &str); 13] = [
     ("dosm::check::unknown_param", "tests/cli.rs"),
     ("dosm::syntax::text_too_long", "tests/syntax"),
     ("dosm::syntax::too_many_errors", "tests/syntax, because it comes after all that is drawn"),
-    ("dosm::tube::narrow_bounds", "src/tube, because it takes bounds that are not supported yet"),
     ("dosm::check::unknown_unit", "behind the parser, which refuses it first"),
     ("dosm::ir::invalid", "a bug by definition"),
     ("dosm::check::misplaced_table", "behind the parser, which refuses it first"),

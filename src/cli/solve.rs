@@ -145,16 +145,13 @@ fn artifacts(mission: &driver::Mission, plan: &Plan) -> Vec<Artifact> {
 }
 
 fn found(plan: &Plan, shortest: bool, files: &[String]) -> String {
-    let (length, again) = (plan.length, plan.loop_start);
     let rank = if shortest {
         "no shorter one exists for its tube and directions"
     } else {
         "a shorter one may exist"
     };
-    format!(
-        "plan: length {length}, then again from step {again}; checked exactly; {rank}\n  {}",
-        printable(&files.join("\n  "))
-    )
+    let files = files.join("\n  ");
+    format!("plan: {}; checked exactly; {rank}\n  {}", plan.summary(), printable(&files))
 }
 
 fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {

@@ -35,6 +35,21 @@ pub struct Plan {
     pub objective: Option<Objective>,
 }
 
+impl Plan {
+    /// The lasso in a few words for people.
+    pub fn summary(&self) -> String {
+        let (length, again, step) = (self.length, self.loop_start, self.step_s);
+        let steps = if length == 1 { "step" } else { "steps" };
+        // A loop of one step leads from z_L to z_L.
+        let then = if again == length {
+            "then stays there".to_string()
+        } else {
+            format!("then again from step {again},")
+        };
+        format!("{length} {steps} of {step} s, {then} for ever")
+    }
+}
+
 /// What a plan is a plan of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mission {

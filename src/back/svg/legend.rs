@@ -1,7 +1,7 @@
 //! Title and legend.
 
 use super::canvas::{Canvas, Pixel, px};
-use super::{shapes, ways};
+use super::{links, shapes, ways};
 use crate::ir::{BlockerKind, Problem};
 use crate::plan::Plan;
 
@@ -14,17 +14,11 @@ const LONGEST: usize = 28;
 
 /// How high the picture has to be for its legend.
 pub fn height(problem: &Problem) -> f64 {
-    100.0 + ROW * (rows(problem) as f64 + 9.0)
+    100.0 + ROW * (rows(problem) as f64 + 10.0)
 }
 
 fn rows(problem: &Problem) -> usize {
     problem.robots.len().min(MOST_LISTED + 1)
-}
-
-/// The plan in a line.
-pub fn summary(plan: &Plan) -> String {
-    let (length, again, step) = (plan.length, plan.loop_start, plan.step_s);
-    format!("{length} steps of {step} s, then again from step {again}")
 }
 
 /// Draws the title above and the legend to the right.
@@ -32,7 +26,7 @@ pub fn draw(canvas: &mut Canvas, problem: &Problem, plan: &Plan) {
     let (x, y) = canvas.legend_corner();
     canvas.text((52.0, 30.0), "title", &problem.name);
     let view = if problem.dimension > 2 { ", seen from above" } else { "" };
-    canvas.text((52.0, 50.0), "sub", &(summary(plan) + view));
+    canvas.text((52.0, 50.0), "sub", &(plan.summary() + view));
     let mut at = (x, y + 8.0);
     heading(canvas, &mut at, "ROBOTS");
     for (index, robot) in plan.robots.iter().take(MOST_LISTED).enumerate() {
@@ -54,6 +48,11 @@ pub fn draw(canvas: &mut Canvas, problem: &Problem, plan: &Plan) {
         px(at.1 - 11.0)
     ));
     row(canvas, &mut at, "where it can be at a step");
+    if !links::at_last_step(plan).is_empty() {
+        let (x, y) = (px(at.0), px(at.1 - 4.0));
+        canvas.add(&format!(r#"<path class="link" d="M{x} {y}h24"/>"#));
+        row(canvas, &mut at, &format!("radio links at step {}", plan.length));
+    }
     still(canvas, &mut at, problem);
 }
 

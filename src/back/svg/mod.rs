@@ -6,6 +6,7 @@
 
 mod canvas;
 mod legend;
+mod links;
 mod shapes;
 mod ways;
 
@@ -24,9 +25,10 @@ pub const NAME: &str = "plan.svg";
 pub fn draw(problem: &Problem, plan: &Plan) -> Artifact {
     let mut canvas = Canvas::new(&problem.workspace, legend::height(problem));
     shapes::draw(&mut canvas, problem);
+    links::draw(&mut canvas, problem, plan);
     ways::draw(&mut canvas, problem, plan);
     shapes::draw_names(&mut canvas, problem);
     legend::draw(&mut canvas, problem, plan);
-    let title = format!("{}: {}", problem.name, legend::summary(plan));
+    let title = format!("{}: {}", problem.name, plan.summary());
     Artifact { name: NAME.into(), contents: canvas.finish(&escape(&title)) }
 }

@@ -10,7 +10,7 @@ use crate::ir::{
     Base, Blocker, BlockerKind, Formula, Formulas, Goal, Interval, Model, ModelId, Piece, Problem, Region,
     Robot, Shape, Signal,
 };
-use crate::plan::{Mission, Plan, RobotPlan, Tube};
+use crate::plan::{Link, Mission, Plan, RobotPlan, Tube};
 
 fn number(value: f64) -> Rational {
     Rational::from_f64(value).expect("finite")
@@ -104,6 +104,10 @@ fn problem(name: &str) -> Problem {
     }
 }
 
+fn link(from: &str, to: &str) -> Link {
+    Link { from: from.into(), to: to.into(), hops: 1, separators: Vec::new() }
+}
+
 fn plan() -> Plan {
     let robot = |name: &str, z: &[[f64; 2]]| RobotPlan {
         name: name.into(),
@@ -132,7 +136,13 @@ fn plan() -> Plan {
             robot("R1", &[[1.0, 1.0], [3.0, 2.0], [7.0, 4.0], [9.0, 6.0], [10.0, 5.5]]),
             robot("R2", &[[3.0, 1.0], [3.0, 2.5], [3.2, 6.0], [5.0, 7.0], [4.0, 6.5]]),
         ],
-        links: None,
+        links: Some(vec![
+            Vec::new(),
+            Vec::new(),
+            Vec::new(),
+            Vec::new(),
+            vec![link("R1", "R2"), link("R2", "B1")],
+        ]),
         separation: Vec::new(),
         objective: None,
     }
@@ -163,9 +173,19 @@ fn tube_boxes_stand_off_centre_and_to_scale() {
 }
 
 #[test]
+fn the_last_steps_links_are_drawn() {
+    let text = draw(&problem("small"), &plan()).contents;
+    // From R2's last position to the base.
+    let scale = 760.0 / 12.0;
+    let pixel = |x: f64, y: f64| format!("{:.2} {:.2}", 52.0 + x * scale, 64.0 + (8.0 - y) * scale);
+    assert!(text.contains(&format!("M{}L{}", pixel(4.0, 6.5), pixel(1.0, 7.0))));
+}
+
+#[test]
 fn a_plan_that_does_not_fit_its_problem_is_still_drawn() {
     let mut odd = plan();
     odd.loop_start = 99;
+    odd.links = Some(vec![vec![link("nobody", "B1")]; 5]);
     odd.robots[0].z[1].clear();
     odd.robots[1].dynamics = "Other".into();
     odd.tubes[0].d[0].clear();
