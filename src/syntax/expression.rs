@@ -1,15 +1,11 @@
-//! Building expressions, references, numbers and units.
+//! Building expressions and references.
 
-use crate::exact::Rational;
 use crate::source::Span;
-use crate::syntax::ast::{BinaryOp, Expr, ExprKind, IndexRange, Name, Number, Reference, Unit};
+use crate::syntax::ast::{BinaryOp, Expr, ExprKind, IndexRange, Name, Reference};
 use crate::syntax::builder::Builder;
 use crate::syntax::climb::{Climber, Deep, TooDeep};
-use crate::syntax::error::{self, MAX_DIGITS};
+use crate::syntax::error;
 use crate::syntax::grammar::{Built, Children, Node, Rule, Stop};
-
-/// The largest absolute value of a unit's exponent.
-const MAX_UNIT_EXPONENT: i32 = 64;
 
 impl Builder<'_> {
     /// An expression.
@@ -61,44 +57,117 @@ impl Builder<'_> {
         }
     }
 
+    /// Reads the chains of an expression and of all brackets in it, with a stack of their own.
     fn deep_expression(&mut self, node: Node) -> Built<Deep<Expr>> {
-        let span = self.span(&node);
-        match self.climb_expression(node)? {
-            Ok(deep) => Ok(deep),
-            Err(TooDeep) => self.stop(error::too_deep(span, "expression")),
-        }
-    }
-
-    fn climb_expression(&mut self, node: Node) -> Built<Result<Deep<Expr>, TooDeep>> {
-        let mut climber = Climber::new(apply);
-        let mut base = None;
-        let mut power = false;
-        for child in Children::of(node) {
-            match child.as_rule() {
-                Rule::minus => {}
-                Rule::arithmetic => power = child.as_str() == "^",
-                _ if power => self.check_exponent(base.as_ref(), &child),
-                _ => base = Some(child.clone()),
-            }
-            let read = match child.as_rule() {
-                Rule::minus => climber.prefix(Operator::Negate(self.span(&child)), 3),
-                Rule::arithmetic => {
-                    let (op, level, right) = arithmetic(child.as_str())?;
-                    climber.infix(Operator::Binary(op), level, right)
-                }
-                _ => {
-                    climber.operand(self.operand(child)?);
-                    Ok(())
+        let whole = self.span(&node);
+        let mut open = vec![Chain::new(node, None)];
+        while let Some(chain) = open.last_mut() {
+            let read = match chain.rest.next() {
+                Some(child) => match self.expression_link(child, chain)? {
+                    Link::Read(read) => read,
+                    Link::Bracket(inner) => {
+                        open.push(inner);
+                        Ok(())
+                    }
+                },
+                None => {
+                    let done = open.pop().ok_or(Stop)?;
+                    match done.climber.finish() {
+                        Ok(inside) => match self.close(inside.ok_or(Stop)?, done.around, &mut open)? {
+                            Some(whole) => return Ok(whole),
+                            None => Ok(()),
+                        },
+                        Err(deep) => Err(deep),
+                    }
                 }
             };
-            if let Err(deep) = read {
-                return Ok(Err(deep));
+            if read.is_err() {
+                return self.stop(error::too_deep(whole, "expression"));
             }
         }
-        match climber.finish() {
-            Ok(tree) => tree.ok_or(Stop).map(Ok),
-            Err(deep) => Ok(Err(deep)),
+        Err(Stop)
+    }
+
+    /// Reads one operator or operand of a chain.
+    fn expression_link<'i>(&mut self, node: Node<'i>, chain: &mut Chain<'i>) -> Built<Link<'i>> {
+        Ok(match node.as_rule() {
+            Rule::minus => Link::Read(chain.climber.prefix(Operator::Negate(self.span(&node)), 3)),
+            Rule::arithmetic => {
+                chain.power = node.as_str() == "^";
+                let (op, level, right) = arithmetic(node.as_str())?;
+                Link::Read(chain.climber.infix(Operator::Binary(op), level, right))
+            }
+            _ => {
+                if chain.power {
+                    self.check_exponent(chain.base.as_ref(), &node);
+                } else {
+                    chain.base = Some(node.clone());
+                }
+                let operand = Children::of(node).expect_any()?;
+                if let Some(bracket) = self.bracket(&operand)? {
+                    return Ok(Link::Bracket(bracket));
+                }
+                chain.climber.operand(self.operand(operand)?);
+                Link::Read(Ok(()))
+            }
+        })
+    }
+
+    /// The chain inside an operand's bracket, if it has one.
+    fn bracket<'i>(&mut self, operand: &Node<'i>) -> Built<Option<Chain<'i>>> {
+        let mark = self.units_read();
+        let span = self.span(operand);
+        let mut rest = Children::of(operand.clone());
+        let kind = match operand.as_rule() {
+            Rule::group => BracketKind::Group,
+            Rule::call => BracketKind::Call(self.name(rest.expect(Rule::ident)?)),
+            Rule::reference => {
+                let name = self.name(rest.expect(Rule::ident)?);
+                match rest.take_if(Rule::index) {
+                    Some(index) => rest = Children::of(index),
+                    None => return Ok(None),
+                }
+                BracketKind::Index(name)
+            }
+            _ => return Ok(None),
+        };
+        let first = rest.expect(Rule::expression)?;
+        let bracket = Bracket { kind, span, mark, rest, inside: Vec::new(), levels: 0 };
+        Ok(Some(Chain::new(first, Some(bracket))))
+    }
+
+    /// Ends the innermost chain: the whole expression, or something inside a bracket, which goes on or ends too.
+    fn close<'i>(
+        &mut self,
+        inside: Deep<Expr>,
+        around: Option<Bracket<'i>>,
+        open: &mut Vec<Chain<'i>>,
+    ) -> Built<Option<Deep<Expr>>> {
+        let Some(mut bracket) = around else {
+            return Ok(Some(inside));
+        };
+        bracket.levels = bracket.levels.max(inside.levels);
+        bracket.inside.push(inside.tree);
+        if let Some(next) = bracket.rest.take_if(Rule::expression) {
+            open.push(Chain::new(next, Some(bracket)));
+            return Ok(None);
         }
+        let operand = self.close_bracket(bracket)?;
+        open.last_mut().ok_or(Stop)?.climber.operand(operand);
+        Ok(None)
+    }
+
+    fn close_bracket(&mut self, mut bracket: Bracket) -> Built<Deep<Expr>> {
+        let unit = bracket.rest.take_if(Rule::unit);
+        let end = unit.as_ref().map_or(bracket.span.end, |unit| self.end_before(unit.as_span().start()));
+        let span = Span { end, ..bracket.span };
+        let kind = match bracket.kind {
+            BracketKind::Group => ExprKind::Parenthesised(Box::new(bracket.inside.pop().ok_or(Stop)?)),
+            BracketKind::Call(function) => ExprKind::Call { function, arguments: bracket.inside },
+            BracketKind::Index(name) => ExprKind::Name(Reference { name, indices: bracket.inside, span }),
+        };
+        let deep = Deep { tree: Expr { span, kind }, levels: bracket.levels + 1 };
+        self.with_unit(deep, unit, bracket.mark, bracket.span)
     }
 
     /// Refuses `10^3 m`, which means 10^(3 m) and never was meant so.
@@ -112,54 +181,19 @@ impl Builder<'_> {
         self.report(error::unit_in_exponent(span, power, unit.as_str()));
     }
 
+    /// An operand without brackets.
     fn operand(&mut self, node: Node) -> Built<Deep<Expr>> {
-        let node = Children::of(node).expect_any()?;
-        let mark = self.units_read();
         let span = self.span(&node);
-        match node.as_rule() {
-            Rule::quantity => {
-                let mut children = Children::of(node);
-                let number = self.number(children.expect(Rule::number)?)?;
-                let inside = Expr { span: number.span, kind: ExprKind::Number(number.value) };
-                self.with_unit(Deep::leaf(inside), children.take_if(Rule::unit), mark, span)
-            }
-            Rule::group => {
-                let opening = span;
-                let mut children = Children::of(node);
-                let inside = self.deep_expression(children.expect(Rule::expression)?)?;
-                let unit = children.take_if(Rule::unit);
-                let end = self.before_unit(span, unit.as_ref());
-                let kind = ExprKind::Parenthesised(Box::new(inside.tree));
-                let group = Expr { span: Span { start: opening.start, end }, kind };
-                self.with_unit(Deep { tree: group, levels: inside.levels + 1 }, unit, mark, span)
-            }
-            Rule::call => self.call(node, mark, span),
-            _ => {
-                let (reference, levels) = self.deep_reference(node)?;
-                Ok(Deep { tree: Expr { span, kind: ExprKind::Name(reference) }, levels: levels + 1 })
-            }
-        }
-    }
-
-    fn call(&mut self, node: Node, mark: usize, span: Span) -> Built<Deep<Expr>> {
         let mut children = Children::of(node);
-        let function = self.name(children.expect(Rule::ident)?);
-        let mut arguments = Vec::new();
-        let mut levels = 0;
-        while let Some(argument) = children.take_if(Rule::expression) {
-            let argument = self.deep_expression(argument)?;
-            levels = levels.max(argument.levels);
-            arguments.push(argument.tree);
-        }
-        let unit = children.take_if(Rule::unit);
-        let end = self.before_unit(span, unit.as_ref());
-        let tree = Expr { span: Span { end, ..span }, kind: ExprKind::Call { function, arguments } };
-        self.with_unit(Deep { tree, levels: levels + 1 }, unit, mark, span)
-    }
-
-    /// The end of what stands before a unit: the end of `span` where there is none.
-    fn before_unit(&self, span: Span, unit: Option<&Node>) -> u32 {
-        unit.map_or(span.end, |unit| self.end_before(unit.as_span().start()))
+        let Some(number) = children.take_if(Rule::number) else {
+            let name = self.name(children.expect(Rule::ident)?);
+            let kind = ExprKind::Name(Reference { name, indices: Vec::new(), span });
+            return Ok(Deep::leaf(Expr { span, kind }));
+        };
+        let mark = self.units_read();
+        let number = self.number(number)?;
+        let inside = Expr { span: number.span, kind: ExprKind::Number(number.value) };
+        self.with_unit(Deep::leaf(inside), children.take_if(Rule::unit), mark, span)
     }
 
     /// `inside` with the unit behind it, which must be the only one in `span`.
@@ -177,49 +211,18 @@ impl Builder<'_> {
         Ok(Deep { tree: Expr { span, kind }, levels: inside.levels + 1 })
     }
 
-    /// A unit behind a number or a bracket; none may have been read since `mark`.
-    pub(super) fn trailing_unit(&mut self, unit: Option<Node>, mark: usize) -> Built<Option<Unit>> {
-        let Some(unit) = unit else {
-            return Ok(None);
-        };
-        let first = self.unit_since(mark);
-        let unit = self.unit(unit)?;
-        if let Some(first) = first {
-            self.report(error::unit_twice(first, unit.span));
-        }
-        Ok(Some(unit))
-    }
-
-    /// A unit.
-    pub(super) fn unit(&mut self, node: Node) -> Built<Unit> {
-        let span = self.span(&node);
-        self.note_unit(span);
-        match unit_factors(node.as_str()) {
-            Some(factors) => Ok(Unit { factors, span }),
-            None => self.stop(error::unit_exponent(span)),
-        }
-    }
-
     /// A use of a name.
     pub(super) fn reference(&mut self, node: Node) -> Built<Reference> {
-        self.deep_reference(node).map(|(reference, _)| reference)
-    }
-
-    /// A use of a name, with the levels of its indices.
-    fn deep_reference(&mut self, node: Node) -> Built<(Reference, usize)> {
         let span = self.span(&node);
         let mut children = Children::of(node);
         let name = self.name(children.expect(Rule::ident)?);
         let mut indices = Vec::new();
-        let mut levels = 0;
         if let Some(index) = children.take_if(Rule::index) {
             for expression in Children::of(index) {
-                let deep = self.deep_expression(expression)?;
-                levels = levels.max(deep.levels);
-                indices.push(deep.tree);
+                indices.push(self.expression(expression)?);
             }
         }
-        Ok((Reference { name, indices, span }, levels))
+        Ok(Reference { name, indices, span })
     }
 
     /// The ends of a range: `A..B`.
@@ -242,19 +245,49 @@ impl Builder<'_> {
     pub(super) fn name(&self, node: Node) -> Name {
         Name { text: node.as_str().to_owned(), span: self.span(&node) }
     }
+}
 
-    /// A number.
-    pub(super) fn number(&mut self, node: Node) -> Built<Number> {
-        let span = self.span(&node);
-        let text = node.as_str();
-        if text.len() > MAX_DIGITS {
-            return self.stop(error::number_too_long(span, text.len()));
-        }
-        match decimal(text) {
-            Some(value) => Ok(Number { value, span }),
-            None => self.stop(error::number_range(span)),
-        }
+/// An operator chain that is being read: a whole expression, or one of those in a bracket.
+struct Chain<'i> {
+    rest: Children<'i>,
+    climber: Climber<Operator, Expr>,
+    /// The operand before the last run of `^`, and whether such a run is being read.
+    base: Option<Node<'i>>,
+    power: bool,
+    around: Option<Bracket<'i>>,
+}
+
+impl<'i> Chain<'i> {
+    fn new(expression: Node<'i>, around: Option<Bracket<'i>>) -> Chain<'i> {
+        let climber = Climber::new(apply);
+        Chain { rest: Children::of(expression), climber, base: None, power: false, around }
     }
+}
+
+/// An operand with brackets whose inside is being read.
+struct Bracket<'i> {
+    kind: BracketKind,
+    /// All of the operand.
+    span: Span,
+    /// The units read before it.
+    mark: usize,
+    rest: Children<'i>,
+    inside: Vec<Expr>,
+    levels: usize,
+}
+
+enum BracketKind {
+    Group,
+    Call(Name),
+    Index(Name),
+}
+
+/// What reading one part of a chain leads to.
+enum Link<'i> {
+    /// It was read, unless the chain is too deep.
+    Read(Result<(), TooDeep>),
+    /// A bracket has to be read first.
+    Bracket(Chain<'i>),
 }
 
 /// What waits for its operand.
@@ -286,50 +319,4 @@ fn arithmetic(sign: &str) -> Built<(BinaryOp, u8, bool)> {
         "^" => (BinaryOp::Power, 4, true),
         _ => return Err(Stop),
     })
-}
-
-/// The factors of a unit, `None` for an exponent that is 0 or absurd.
-fn unit_factors(text: &str) -> Option<Vec<(String, i32)>> {
-    let mut factors = Vec::new();
-    let mut sign = 1;
-    for part in text.split_inclusive(['*', '/']) {
-        let factor = part.trim_end_matches(['*', '/']);
-        let (symbol, exponent) = match factor.split_once('^') {
-            Some((symbol, power)) => (symbol, power.parse::<i32>().ok()?),
-            None => (factor, 1),
-        };
-        if exponent == 0 || exponent.abs() > MAX_UNIT_EXPONENT {
-            return None;
-        }
-        factors.push((symbol.to_owned(), sign * exponent));
-        sign = if part.ends_with('/') { -1 } else { 1 };
-    }
-    Some(factors)
-}
-
-/// The exact value of a decimal; `None` out of 1e-300..=1e300 (0 is in). The text's length is bounded.
-fn decimal(text: &str) -> Option<Rational> {
-    const MAX_EXPONENT: i64 = 300;
-    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits = format!("{whole}{fraction}");
-    let digits = digits.trim_start_matches('0');
-    if digits.is_empty() {
-        return Some(Rational::ZERO);
-    }
-    let exponent = saturating(exponent).saturating_sub(fraction.len() as i64);
-    // The value lies in 10^top .. 10^(top + 1).
-    let top = exponent.saturating_add(digits.len() as i64 - 1);
-    let power_of_ten = digits.starts_with('1') && digits.bytes().skip(1).all(|d| d == b'0');
-    if !(-MAX_EXPONENT..=MAX_EXPONENT).contains(&top) || (top == MAX_EXPONENT && !power_of_ten) {
-        return None;
-    }
-    Rational::from_decimal(digits, i32::try_from(exponent).ok()?)
-}
-
-/// A whole number of any length, as near as an `i64` comes.
-fn saturating(text: &str) -> i64 {
-    let negative = text.starts_with('-');
-    let size = text.trim_start_matches(['+', '-']).parse::<i64>().unwrap_or(i64::MAX / 2);
-    if negative { -size } else { size }
 }

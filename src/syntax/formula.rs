@@ -22,39 +22,69 @@ impl Builder<'_> {
         self.deep_formula(node).map(|deep| deep.tree)
     }
 
+    /// Reads the chains of a formula and of all brackets in it, with a stack of their own.
     fn deep_formula(&mut self, node: Node) -> Built<Deep<Formula>> {
-        let span = self.span(&node);
-        match self.climb_formula(node)? {
-            Ok(deep) => Ok(deep),
-            Err(TooDeep) => self.stop(error::too_deep(span, "formula")),
-        }
-    }
-
-    fn climb_formula(&mut self, node: Node) -> Built<Result<Deep<Formula>, TooDeep>> {
-        let mut climber = Climber::new(apply);
-        for child in Children::of(node) {
-            let read = match child.as_rule() {
-                Rule::prefix => {
-                    let (operator, level) = self.prefix(child)?;
-                    climber.prefix(operator, level)
-                }
-                Rule::connective => {
-                    let (operator, level, right) = self.connective(child)?;
-                    climber.infix(operator, level, right)
-                }
-                _ => {
-                    climber.operand(self.atom(child)?);
-                    Ok(())
-                }
+        let whole = self.span(&node);
+        let mut open = vec![Chain { span: whole, rest: Children::of(node), climber: Climber::new(apply) }];
+        while let Some(chain) = open.last_mut() {
+            let read = match chain.rest.next() {
+                Some(child) => match self.formula_link(child, &mut chain.climber)? {
+                    Link::Read(read) => read,
+                    Link::Bracket(inner) => {
+                        open.push(inner);
+                        Ok(())
+                    }
+                },
+                None => match self.close_chain(&mut open)? {
+                    Some(whole) => return Ok(whole),
+                    None => Ok(()),
+                },
             };
-            if let Err(deep) = read {
-                return Ok(Err(deep));
+            if read.is_err() {
+                return self.stop(error::too_deep(whole, "formula"));
             }
         }
-        match climber.finish() {
-            Ok(tree) => tree.ok_or(Stop).map(Ok),
-            Err(deep) => Ok(Err(deep)),
-        }
+        Err(Stop)
+    }
+
+    /// Reads one operator or operand of a chain.
+    fn formula_link<'i>(&mut self, node: Node<'i>, climber: &mut FormulaClimber) -> Built<Link<'i>> {
+        Ok(match node.as_rule() {
+            Rule::prefix => {
+                let (operator, level) = self.prefix(node)?;
+                Link::Read(climber.prefix(operator, level))
+            }
+            Rule::connective => {
+                let (operator, level, right) = self.connective(node)?;
+                Link::Read(climber.infix(operator, level, right))
+            }
+            _ => {
+                let atom = Children::of(node).expect_any()?;
+                let span = self.span(&atom);
+                if atom.as_rule() == Rule::formula_group {
+                    let rest = Children::of(Children::of(atom).expect(Rule::formula)?);
+                    return Ok(Link::Bracket(Chain { span, rest, climber: Climber::new(apply) }));
+                }
+                let kind = self.atom(atom)?;
+                climber.operand(Deep::leaf(Formula { span, kind }));
+                Link::Read(Ok(()))
+            }
+        })
+    }
+
+    /// Ends the innermost chain: an operand of the one around it, or the whole formula.
+    fn close_chain(&mut self, open: &mut Vec<Chain>) -> Built<Option<Deep<Formula>>> {
+        let done = open.pop().ok_or(Stop)?;
+        let inside = match done.climber.finish() {
+            Ok(tree) => tree.ok_or(Stop)?,
+            Err(TooDeep) => return self.stop(error::too_deep(done.span, "formula")),
+        };
+        let Some(around) = open.last_mut() else {
+            return Ok(Some(inside));
+        };
+        let kind = FormulaKind::Parenthesised(Box::new(inside.tree));
+        around.climber.operand(Deep { tree: Formula { span: done.span, kind }, levels: inside.levels + 1 });
+        Ok(None)
     }
 
     fn prefix(&mut self, node: Node) -> Built<(Operator, u8)> {
@@ -117,16 +147,8 @@ impl Builder<'_> {
         Ok(Some(Window { from, to, span }))
     }
 
-    fn atom(&mut self, node: Node) -> Built<Deep<Formula>> {
-        let node = Children::of(node).expect_any()?;
-        let span = self.span(&node);
-        let rule = node.as_rule();
-        if rule == Rule::formula_group {
-            let inside = self.deep_formula(Children::of(node).expect(Rule::formula)?)?;
-            let kind = FormulaKind::Parenthesised(Box::new(inside.tree));
-            return Ok(Deep { tree: Formula { span, kind }, levels: inside.levels + 1 });
-        }
-        let kind = match rule {
+    fn atom(&mut self, node: Node) -> Built<FormulaKind> {
+        Ok(match node.as_rule() {
             Rule::truth => FormulaKind::Constant(node.as_str() == "true"),
             Rule::comparison => self.comparison(node)?,
             Rule::membership => {
@@ -134,8 +156,7 @@ impl Builder<'_> {
                 FormulaKind::In { robot, region }
             }
             _ => FormulaKind::Name(self.name(Children::of(node).expect(Rule::ident)?)),
-        };
-        Ok(Deep::leaf(Formula { span, kind }))
+        })
     }
 
     fn membership(&mut self, node: Node) -> Built<(Reference, Reference)> {
@@ -227,6 +248,23 @@ impl Builder<'_> {
         let (member, region) = self.membership(children.expect(Rule::membership)?)?;
         Ok(TermKind::Count { variable, set, member, region })
     }
+}
+
+type FormulaClimber = Climber<Operator, Formula>;
+
+/// An operator chain that is being read: a whole formula or the inside of a bracket.
+struct Chain<'i> {
+    span: Span,
+    rest: Children<'i>,
+    climber: FormulaClimber,
+}
+
+/// What reading one part of a chain leads to.
+enum Link<'i> {
+    /// It was read, unless the chain is too deep.
+    Read(Result<(), TooDeep>),
+    /// A bracket has to be read first.
+    Bracket(Chain<'i>),
 }
 
 /// What a quantifier runs over.

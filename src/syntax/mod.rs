@@ -21,6 +21,7 @@ mod expression;
 mod formula;
 mod grammar;
 mod mend;
+mod number;
 mod reader;
 mod scan;
 mod shape;
