@@ -7,7 +7,7 @@ use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::entity::EntityId;
 use crate::exact::Rational;
 use crate::geometry::Polytope;
-use crate::ir::{Blocker, BlockerKind, Model, Problem, Robot, RobotId, Spans};
+use crate::ir::{Blocker, BlockerKind, Model, Piece, Problem, Robot, RobotId, Spans};
 use crate::source::Span;
 use crate::tube::Tubes;
 
@@ -33,8 +33,10 @@ pub fn inspect(
         .collect();
     let starts: Vec<Option<Start<'_>>> =
         problem.robots.iter().map(|(id, robot)| Start::new(problem, spans, &sets, id, robot)).collect();
+    let boxes: Vec<Vec<Bounds>> =
+        problem.blockers.values().map(|b| b.shape.pieces.iter().map(piece_bounds).collect()).collect();
     for start in starts.iter().flatten() {
-        start.inspect(problem, spans, &mut found);
+        start.inspect(problem, spans, &boxes, &mut found);
     }
     inspect_pairs(problem, spans, &starts, &mut found);
     narrow_region::inspect(problem, spans, &sets, &mut found);
@@ -50,6 +52,8 @@ struct Start<'a> {
     span: Span,
     /// x̄_0 ⊕ Ω, position part.
     positions: Polytope,
+    /// The corners of its bounding box.
+    corners: (Vec<Rational>, Vec<Rational>),
 }
 
 impl<'a> Start<'a> {
@@ -64,16 +68,19 @@ impl<'a> Start<'a> {
         let model = problem.models.get(robot.model)?;
         let at: Vec<Rational> = model.position.iter().map(|&i| robot.start[i].clone()).collect();
         let span = spans.robots.get(id.index()).copied().unwrap_or_default();
-        Some(Start { robot, model, errors, span, positions: errors.positions().translate(&at) })
+        let positions = errors.positions().translate(&at);
+        Some(Start { robot, model, errors, span, corners: positions.bounding_box(), positions })
     }
 
-    fn inspect(&self, problem: &Problem, spans: &Spans, found: &mut Vec<Diagnostic>) {
+    fn inspect(&self, problem: &Problem, spans: &Spans, boxes: &[Vec<Bounds>], found: &mut Vec<Diagnostic>) {
         if !self.positions.is_inside(&problem.workspace) {
             found.push(self.outside_workspace(spans.workspace));
         }
         self.inspect_bounds(spans, found);
-        for (id, blocker) in problem.blockers.iter() {
-            if blocker.shape.pieces.iter().any(|piece| meets(&self.positions, piece)) {
+        let own = bounds(&self.corners);
+        for ((id, blocker), boxes) in problem.blockers.iter().zip(boxes) {
+            let mut pieces = blocker.shape.pieces.iter().zip(boxes);
+            if pieces.any(|(piece, around)| overlap(&own, around) && meets(&self.positions, piece)) {
                 let span = spans.blockers.get(id.index()).copied().unwrap_or_default();
                 found.push(self.in_blocker(blocker, span));
             }
@@ -168,14 +175,35 @@ impl<'a> Start<'a> {
 
     /// The greatest gap along any axis that is certain between two robots; negative when none is.
     fn certain_gap(&self, other: &Start<'_>) -> Rational {
-        let (lo, hi) = self.positions.bounding_box();
-        let (other_lo, other_hi) = other.positions.bounding_box();
+        let ((lo, hi), (other_lo, other_hi)) = (&self.corners, &other.corners);
         let along = |i: usize| {
             let (left, right) = (&lo[i] - &other_hi[i], &other_lo[i] - &hi[i]);
             Rational::max_of(&left, &right).clone()
         };
         (0..lo.len()).map(along).max().unwrap_or(Rational::ZERO)
     }
+}
+
+/// A box in doubles, rounded outwards: most blockers are told to be far away without exact numbers.
+type Bounds = Vec<(f64, f64)>;
+
+fn bounds((lo, hi): &(Vec<Rational>, Vec<Rational>)) -> Bounds {
+    lo.iter().zip(hi).map(|(l, h)| (l.to_f64_down(), h.to_f64_up())).collect()
+}
+
+fn piece_bounds(piece: &Piece) -> Bounds {
+    match piece {
+        Piece::Polytope(polytope) => bounds(&polytope.bounding_box()),
+        Piece::Ball { center, spread, radius } => {
+            let reach = |s: &Rational| s + radius;
+            let lo = center.iter().zip(spread).map(|(c, s)| c - reach(s)).collect();
+            bounds(&(lo, center.iter().zip(spread).map(|(c, s)| c + reach(s)).collect()))
+        }
+    }
+}
+
+fn overlap(a: &Bounds, b: &Bounds) -> bool {
+    a.iter().zip(b).all(|((lo, hi), (other_lo, other_hi))| lo <= other_hi && other_lo <= hi)
 }
 
 fn inspect_pairs(

@@ -68,12 +68,28 @@ pub(super) fn shortest(scaled: &Scaled) -> usize {
     (1..n).find(|&k| Chain::new(scaled, k).residual_of_least_norm() < 1e-9).unwrap_or(n)
 }
 
-/// The gains with the least positions' half-widths within β of the inputs.
-pub(super) fn gains(scaled: &Scaled, beta: f64, longest: usize) -> Result<Gains, NoGains> {
+/// Where to look for gains.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search {
+    /// The share of the inputs.
+    pub(super) beta: f64,
+    /// The shortest memory.
+    pub(super) from: usize,
+    /// The longest memory.
+    pub(super) longest: usize,
+    /// A cost that ends the search: 0 to look for the least.
+    pub(super) enough: f64,
+}
+
+/// The gains with the least positions' half-widths within β of the inputs, or the first that are
+/// good enough.
+pub(super) fn gains(scaled: &Scaled, search: Search) -> Result<Gains, NoGains> {
+    let Search { beta, from, longest, enough } = search;
     let mut best: Option<Gains> = None;
     let mut failed = false;
-    for k in shortest(scaled)..=longest {
+    for k in from..=longest {
         match gains_of_length(scaled, k, Aim::Position { beta }) {
+            Ok(found) if found.cost <= enough => return Ok(found),
             Ok(found) => {
                 let previous = best.as_ref().map(|b| b.cost);
                 if previous.is_some_and(|cost| found.cost > cost * (1.0 - WORTHWHILE)) {
@@ -138,7 +154,9 @@ fn gains_of_length(scaled: &Scaled, k: usize, aim: Aim) -> Result<Gains, NoGains
         .filter(|&j| scaled.disturbed[j] && scaled.half_width[j] >= NEGLIGIBLE * largest)
         .collect();
     let mut m = chain.least_norm();
-    if !active.is_empty() {
+    // As many gains as conditions: there is nothing to choose, hence no program to solve.
+    let unique = scaled.b.ncols() * k <= scaled.a.nrows() && scaled.mixed.is_empty();
+    if !active.is_empty() && !unique {
         for gain in &mut m {
             active.iter().for_each(|&j| gain.column_mut(j).fill(0.0));
         }
@@ -156,7 +174,7 @@ fn gains_of_length(scaled: &Scaled, k: usize, aim: Aim) -> Result<Gains, NoGains
     }
     let (states, inputs) = chain.half_widths(&m);
     if !keeps_bounds(scaled, aim, &states, &inputs) {
-        return Err(NoGains::Numerics);
+        return Err(if unique { NoGains::Bounds } else { NoGains::Numerics });
     }
     let cost = states.iter().zip(&scaled.position_weight).map(|(h, w)| h * w).sum();
     let share = inputs.iter().zip(&scaled.input_bounds).map(|(h, (lo, hi))| 2.0 * h / (hi - lo));

@@ -113,34 +113,45 @@ fn tube_of(problem: &Problem, id: ModelId) -> Result<Tube, Failure> {
 fn choose_share(model: &Model, blocks: &[Block]) -> Result<(f64, Vec<Gains>), Failure> {
     if let Some(beta) = &model.rejection {
         let beta = beta.to_f64();
-        return Ok((beta, all_gains(model, blocks, beta)?));
+        return Ok((beta, all_gains(model, blocks, beta, None)?));
     }
     let [largest, smaller @ ..] = SHARES;
-    let mut chosen = (largest, all_gains(model, blocks, largest)?);
-    let cost = |gains: &[Gains]| gains.iter().map(|g| g.cost).sum::<f64>();
-    let acceptable = TOLERABLE * cost(&chosen.1);
+    let best = all_gains(model, blocks, largest, None)?;
+    let mut chosen = (largest, best.clone());
     for beta in smaller {
         let used = chosen.1.iter().map(|g| g.share).fold(0.0, f64::max);
-        let gains = if used <= beta { Ok(chosen.1.clone()) } else { all_gains(model, blocks, beta) };
+        let gains =
+            if used <= beta { Ok(chosen.1.clone()) } else { all_gains(model, blocks, beta, Some(&best)) };
+        let tolerable = |gains: &[Gains]| gains.iter().zip(&best).all(|(g, b)| g.cost <= TOLERABLE * b.cost);
         match gains {
-            Ok(gains) if cost(&gains) <= acceptable => chosen = (beta, gains),
+            Ok(gains) if tolerable(&gains) => chosen = (beta, gains),
             _ => break,
         }
     }
     Ok(chosen)
 }
 
-/// The gains of each block; blocks with the same numbers share one computation.
-fn all_gains(model: &Model, blocks: &[Block], beta: f64) -> Result<Vec<Gains>, Failure> {
+/// The gains of each block; blocks with the same numbers share one computation. Where the gains
+/// with more of the inputs are known, the memory starts with theirs and tolerable ones will do.
+fn all_gains(
+    model: &Model,
+    blocks: &[Block],
+    beta: f64,
+    best: Option<&[Gains]>,
+) -> Result<Vec<Gains>, Failure> {
     let mut found: Vec<Gains> = Vec::new();
     for (i, block) in blocks.iter().enumerate() {
         let twin = blocks[..i].iter().position(|other| other.scaled == block.scaled);
+        let best = best.map(|gains| &gains[i]);
+        let search = || gains::Search {
+            beta,
+            from: best.map_or_else(|| gains::shortest(&block.scaled), |g| g.m.len()),
+            longest: best.map_or(4 * model.n(), |g| g.m.len() + 2),
+            enough: best.map_or(0.0, |g| TOLERABLE * g.cost),
+        };
         let gains = match twin {
             Some(twin) => found[twin].clone(),
-            None => {
-                let longest = 4 * model.n();
-                gains::gains(&block.scaled, beta, longest).map_err(|why| failure(block, beta, why))?
-            }
+            None => gains::gains(&block.scaled, search()).map_err(|why| failure(block, beta, why))?,
         };
         found.push(gains);
     }
