@@ -233,6 +233,10 @@ mod tests {
         }
         assert_eq!(sqrt(&Rational::ratio(1, 100)).unwrap().to_f64(), 0.1);
         assert!(sqrt(&Rational::from(-1)).is_none());
+        // Just above the square of the middle between 1 and the next double: rounding first would lose it.
+        let middle = exactly(1.0) + two_to(-53);
+        let above = &middle * &middle + two_to(-300);
+        assert_eq!(sqrt(&above).unwrap().to_f64(), 1f64.next_up());
     }
 
     #[test]
