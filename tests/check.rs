@@ -26,6 +26,9 @@ fn corpus() -> Vec<(String, String)> {
     let mut files = Vec::new();
     for entry in fs::read_dir(root().join("tests/missions/err")).expect("the corpus") {
         let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|extension| extension != "dosm") {
+            continue;
+        }
         let stem = path.file_stem().expect("a name").to_string_lossy().into_owned();
         if let Some(name) = stem.strip_prefix("check_") {
             files.push((name.to_string(), fs::read_to_string(&path).expect("a text")));
@@ -82,4 +85,89 @@ fn every_code_has_a_file() {
     let declared = declared();
     let missing: Vec<_> = declared.iter().filter(without).collect();
     assert!(declared.len() > 50 && missing.is_empty(), "no file for {missing:?}");
+}
+
+/// A small generator of pseudo-random numbers, so that failures repeat.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % n.max(1)
+    }
+}
+
+/// Words, numbers and single other characters.
+fn tokens(text: &str) -> Vec<String> {
+    let mut tokens: Vec<String> = Vec::new();
+    for line in text.lines().filter(|l| !l.trim_start().starts_with("//")) {
+        let mut joined = false;
+        for c in line.chars().chain(['\n']) {
+            let word = c.is_alphanumeric() || c == '_' || c == '.';
+            match tokens.last_mut() {
+                Some(last) if word && joined => last.push(c),
+                _ => tokens.push(c.to_string()),
+            }
+            joined = word;
+        }
+    }
+    tokens
+}
+
+/// Numbers, words and all the rest: damage that stays within a class gets past the parser.
+fn class(token: &str) -> usize {
+    match token.chars().next() {
+        Some(c) if c.is_numeric() => 0,
+        Some(c) if c.is_alphabetic() => 1,
+        _ => 2,
+    }
+}
+
+/// How many damaged missions are tried; `DAMAGED` in the environment asks for more.
+fn damaged() -> usize {
+    std::env::var("DAMAGED").ok().and_then(|n| n.parse().ok()).unwrap_or(400)
+}
+
+#[test]
+fn whatever_passes_the_check_is_a_valid_problem() {
+    let mut texts = Vec::new();
+    for folder in ["ok", "solve", "unsat"] {
+        for entry in fs::read_dir(root().join("tests/missions").join(folder)).expect("the corpus") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "dosm") {
+                texts.push(fs::read_to_string(&path).expect("a text"));
+            }
+        }
+    }
+    texts.sort();
+    let wrong = corpus().into_iter().map(|(_, text)| text).filter(|text| !text.contains("10000"));
+    let pool: Vec<String> = texts.iter().cloned().chain(wrong).flat_map(|text| tokens(&text)).collect();
+    let alike = [0, 1, 2].map(|c| pool.iter().filter(|t| class(t) == c).collect::<Vec<_>>());
+    let mut numbers = Numbers(5);
+    let mut passed = 0;
+    for _ in 0..damaged() {
+        let mut mission = tokens(&texts[numbers.below(texts.len())]);
+        for _ in 0..1 + numbers.below(3) {
+            let at = numbers.below(mission.len());
+            let alike = &alike[class(&mission[at])];
+            match numbers.below(8) {
+                0 => drop(mission.remove(at)),
+                1 => mission[at] = pool[numbers.below(pool.len())].clone(),
+                _ => mission[at] = alike[numbers.below(alike.len())].clone(),
+            }
+        }
+        let source = SourceFile::new("mission.dosm", mission.concat());
+        let mut diagnostics = Diagnostics::new();
+        let Ok(file) = parse(&source, &mut diagnostics) else { continue };
+        let Ok(typed) = check(&file, &source, &[], &mut diagnostics) else {
+            assert!(diagnostics.has_errors());
+            continue;
+        };
+        assert!(!diagnostics.has_errors());
+        let (problem, spans) = dosmc::lower::lower(&typed);
+        assert_eq!(dosmc::ir::validate(&problem), Ok(()), "{}", source.text);
+        assert_eq!(spans.robots.len(), problem.robots.len());
+        passed += 1;
+    }
+    assert!(passed > damaged() / 20, "only {passed} missions survived the damage");
 }
