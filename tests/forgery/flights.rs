@@ -32,13 +32,16 @@ impl Watch for Patient {
 }
 
 fn solved(path: &Path) -> (Problem, Plan) {
-    let text = std::fs::read_to_string(path).unwrap();
-    let source = SourceFile::new(path.to_string_lossy(), text);
+    solved_text(&path.to_string_lossy(), &std::fs::read_to_string(path).unwrap())
+}
+
+fn solved_text(name: &str, text: &str) -> (Problem, Plan) {
+    let source = SourceFile::new(name, text);
     let mission = load(&source, &Overrides::default(), &mut Diagnostics::default()).expect("no errors");
     let watch: Arc<dyn Watch> = Arc::new(Patient);
     match solve(&mission, &watch).answer {
         Answer::Plan { plan, .. } => (mission.problem, *plan),
-        other => panic!("{}: {other:?}", path.display()),
+        other => panic!("{name}: {other:?}"),
     }
 }
 
@@ -92,4 +95,49 @@ fn forgeries_of_solved_plans_are_refused_or_do_no_harm() {
         let tally = forge(&problem, &plan, |_| true, binding, every, 2);
         assert!(tally.refused > 10, "{}: {} refused", path.display(), tally.refused);
     }
+}
+
+/// Coupled dynamics in continuous time beside a plain point, slanted shapes, joint bounds,
+/// disturbances off their middle.
+const MIXED: &str = r"
+dosm 1
+mission mixed
+workspace polygon (0, 0), (12, -1), (13, 9), (6, 12), (-1, 9)
+region a = ball (9, 7) radius 1.2 norm 1
+region b = polygon (1, 6), (3, 7.5), (1.5, 8.5), (0.2, 7)
+obstacle rock = hull (5, 4), (6.5, 4.5), (6, 6), (4.8, 5.5)
+jammer J = ball (8, 3) radius 0.8 norm 1 or ball (3, 4.5) radius 0.5
+base B1 at (1, 1)
+base B2 at (11, 8)
+dynamics Car {
+  step 0.5 s
+  state px: m, py: m, vx: m/s, vy: m/s
+  input ax: m/s^2, ay: m/s^2
+  position px, py
+  continuous
+  A = [0, 0, 1, 0.3; 0, 0, -0.3, 1; 0, 0, -0.2, 0.1; 0, 0, -0.1, -0.3]
+  B = [0, 0; 0, 0; 1, 0.2; -0.1, 1]
+  bound vx, vy in [-4, 4] m/s
+  bound ax, ay in [-4, 4] m/s^2
+  bound where { vx + vy <= 5; vx - 1 s * ax <= 7 }
+  disturbance px, py in [-0.03, 0.05] m
+}
+dynamics Point { step 0.5 s integrator 1 bound vx, vy in [-3, 3] m/s disturbance px, py in [-0.1, 0.05] m }
+robot R1: Car at (2, 2)
+robot R2: Point at (4, 2)
+robot R3: Point at (6, 1.5)
+separation 0.2 m
+connectivity { hops <= 2 }
+horizon 1..30
+goal g1: always eventually R1 in a
+goal g2: eventually R2 in b and always eventually not (R2 in b)
+goal g3: always count(r in R2, R3: r in a) != 2
+";
+
+#[test]
+fn coupled_and_slanted_plans_fly_and_resist_forgery() {
+    let (problem, plan) = solved_text("mixed", MIXED);
+    assert_eq!(counterexample(&problem, &plan, 500, &mut Dice(5)), None);
+    let tally = forge(&problem, &plan, |_| true, binding, 23, 1);
+    assert!(tally.refused > 100, "{} refused", tally.refused);
 }
