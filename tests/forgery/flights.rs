@@ -137,7 +137,7 @@ goal g3: always count(r in R2, R3: r in a) != 2
 #[test]
 fn coupled_and_slanted_plans_fly_and_resist_forgery() {
     let (problem, plan) = solved_text("mixed", MIXED);
-    assert_eq!(counterexample(&problem, &plan, 500, &mut Dice(5)), None);
+    assert_eq!(counterexample(&problem, &plan, 100, &mut Dice(5)), None);
     let tally = forge(&problem, &plan, |_| true, binding, 23, 1);
     assert!(tally.refused > 100, "{} refused", tally.refused);
 }

@@ -1,7 +1,7 @@
 //! A second opinion in plain floating point: flies the plan's own control law through sampled
 //! disturbances and looks at the true geometry. It shares nothing with the checker.
 
-use dosmc::exact::Rational;
+use dosmc::exact::{Rational, RationalMatrix};
 use dosmc::ir::{Model, Norm, Piece, Problem, Shape};
 use dosmc::plan::{Label, Plan, RobotPlan, Tube};
 
@@ -26,6 +26,46 @@ impl Dice {
     }
 }
 
+/// A convex piece in floating point.
+enum Solid {
+    Facets(Vec<(Vec<f64>, f64)>),
+    Ball { center: Vec<f64>, spread: Vec<f64>, radius: f64 },
+}
+
+/// A named union of pieces.
+struct Place {
+    name: String,
+    blocks_links: bool,
+    pieces: Vec<Solid>,
+}
+
+/// What there is in the workspace, in floating point.
+struct Ground {
+    blockers: Vec<Place>,
+    regions: Vec<Place>,
+}
+
+impl Ground {
+    fn new(problem: &Problem) -> Ground {
+        let place = |name: &str, blocks_links: bool, shape: &Shape| {
+            let solid = |piece: &Piece| match piece {
+                Piece::Polytope(p) => {
+                    Solid::Facets(p.facets.iter().map(|f| (floats(&f.normal), f.offset.to_f64())).collect())
+                }
+                Piece::Ball { center, spread, radius } => {
+                    Solid::Ball { center: floats(center), spread: floats(spread), radius: radius.to_f64() }
+                }
+            };
+            Place { name: name.into(), blocks_links, pieces: shape.pieces.iter().map(solid).collect() }
+        };
+        let blockers = problem.blockers.values();
+        Ground {
+            blockers: blockers.map(|b| place(&b.name, b.kind.blocks_links(), &b.shape)).collect(),
+            regions: problem.regions.values().map(|r| place(&r.name, false, &r.shape)).collect(),
+        }
+    }
+}
+
 /// The true positions of a robot, step by step, and where the plan was.
 struct Flight {
     positions: Vec<Vec<f64>>,
@@ -34,6 +74,7 @@ struct Flight {
 
 /// The first thing that goes wrong in some runs of the plan, if anything does.
 pub fn counterexample(problem: &Problem, plan: &Plan, runs: usize, dice: &mut Dice) -> Option<String> {
+    let ground = Ground::new(problem);
     for _ in 0..runs {
         let mut flights = vec![];
         for (index, asked) in problem.robots.values().enumerate() {
@@ -45,12 +86,16 @@ pub fn counterexample(problem: &Problem, plan: &Plan, runs: usize, dice: &mut Di
                 Err(why) => return Some(format!("robot {index}: {why}")),
             }
         }
-        let all = [workspace(problem, &flights), blocked(problem, &flights), labels(problem, plan, &flights)];
+        let all = [
+            workspace(problem, &flights),
+            blocked(&ground, &flights),
+            labels(problem, &ground, plan, &flights),
+        ];
         let found = all.into_iter().flatten().next();
         if found.is_some() {
             return found;
         }
-        let found = links(problem, plan, &flights).or_else(|| separation(problem, &flights));
+        let found = links(problem, &ground, plan, &flights).or_else(|| separation(problem, &flights));
         if found.is_some() {
             return found;
         }
@@ -71,6 +116,11 @@ fn fly(
     let mut unexplained = vec![vec![0.0; n]; k];
     let mut x = start.to_vec();
     let mut flight = Flight { positions: vec![], steps: vec![] };
+    let rows = |matrix: &RationalMatrix| -> Vec<Vec<f64>> {
+        matrix.row_iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect()
+    };
+    let (a, b, c) = (rows(&model.a), rows(&model.b), floats(&model.c));
+    let theta: Vec<(f64, f64)> = model.disturbance.iter().map(|i| (i.lo.to_f64(), i.hi.to_f64())).collect();
     let mut t = 0;
     for _ in 0..3 * (plan.length + 1) {
         let mut w: Vec<f64> = (0..n).map(|i| x[i] - robot.z[t][i]).collect();
@@ -88,11 +138,8 @@ fn fly(
         flight.steps.push(t);
         x = (0..n)
             .map(|row| {
-                let theta = &model.disturbance[row];
-                let (lo, hi) = (theta.lo.to_f64(), theta.hi.to_f64());
-                let a: f64 = (0..n).map(|j| model.a[(row, j)].to_f64() * x[j]).sum();
-                let b: f64 = (0..m).map(|j| model.b[(row, j)].to_f64() * u[j]).sum();
-                a + b + model.c[row].to_f64() + lo + (hi - lo) * dice.share()
+                let (lo, hi) = theta[row];
+                product(&a[row], &x) + product(&b[row], &u) + c[row] + lo + (hi - lo) * dice.share()
             })
             .collect();
         t = if t < plan.length { t + 1 } else { plan.loop_start };
@@ -127,10 +174,10 @@ fn workspace(problem: &Problem, flights: &[Flight]) -> Option<String> {
     left.then(|| "left the workspace".into())
 }
 
-fn blocked(problem: &Problem, flights: &[Flight]) -> Option<String> {
-    for (flight, blocker) in flights.iter().flat_map(|f| problem.blockers.values().map(move |b| (f, b))) {
+fn blocked(ground: &Ground, flights: &[Flight]) -> Option<String> {
+    for (flight, blocker) in flights.iter().flat_map(|f| ground.blockers.iter().map(move |b| (f, b))) {
         for (i, pair) in flight.positions.windows(2).enumerate() {
-            if crosses(&pair[0], &pair[1], &blocker.shape) {
+            if crosses(&pair[0], &pair[1], blocker) {
                 return Some(format!("step {}: hit {}", flight.steps[i], blocker.name));
             }
         }
@@ -138,14 +185,14 @@ fn blocked(problem: &Problem, flights: &[Flight]) -> Option<String> {
     None
 }
 
-fn labels(problem: &Problem, plan: &Plan, flights: &[Flight]) -> Option<String> {
+fn labels(problem: &Problem, ground: &Ground, plan: &Plan, flights: &[Flight]) -> Option<String> {
     for (robot, flight) in plan_of(problem, plan).zip(flights) {
         for (name, labels) in &robot.regions {
-            let region = problem.regions.values().find(|r| r.name == *name)?;
+            let region = ground.regions.iter().find(|r| r.name == *name)?;
             for (p, &t) in flight.positions.iter().zip(&flight.steps) {
                 let wrong = match labels[t] {
-                    Label::In => !inside(p, &region.shape, TOLERANCE),
-                    Label::Out => inside(p, &region.shape, -TOLERANCE),
+                    Label::In => !inside(p, region, TOLERANCE),
+                    Label::Out => inside(p, region, -TOLERANCE),
                     Label::Unknown => false,
                 };
                 if wrong {
@@ -157,7 +204,7 @@ fn labels(problem: &Problem, plan: &Plan, flights: &[Flight]) -> Option<String> 
     None
 }
 
-fn links(problem: &Problem, plan: &Plan, flights: &[Flight]) -> Option<String> {
+fn links(problem: &Problem, ground: &Ground, plan: &Plan, flights: &[Flight]) -> Option<String> {
     let (lists, asked) = (plan.links.as_ref()?, problem.connectivity.as_ref()?);
     for (i, &t) in flights[0].steps.iter().enumerate() {
         let end = |name: &str| -> Option<Vec<f64>> {
@@ -167,8 +214,8 @@ fn links(problem: &Problem, plan: &Plan, flights: &[Flight]) -> Option<String> {
         };
         for link in &lists[t] {
             let (from, to) = (end(&link.from)?, end(&link.to)?);
-            let jams = problem.blockers.values().filter(|b| b.kind.blocks_links());
-            if let Some(b) = jams.into_iter().find(|b| crosses(&from, &to, &b.shape)) {
+            let jams = ground.blockers.iter().filter(|b| b.blocks_links);
+            if let Some(b) = jams.into_iter().find(|b| crosses(&from, &to, b)) {
                 return Some(format!("link {} to {} at {t} crosses {}", link.from, link.to, b.name));
             }
             if let Some(range) = &asked.range {
@@ -228,23 +275,21 @@ fn plan_of<'a>(problem: &'a Problem, plan: &'a Plan) -> impl Iterator<Item = &'a
     problem.robots.values().filter_map(|asked| plan.robots.iter().find(|r| r.name == asked.name))
 }
 
-fn crosses(p: &[f64], q: &[f64], shape: &Shape) -> bool {
-    (0..=16).any(|share| inside(&between(p, q, f64::from(share) / 16.0), shape, -TOLERANCE))
+fn crosses(p: &[f64], q: &[f64], place: &Place) -> bool {
+    (0..=16).any(|share| inside(&between(p, q, f64::from(share) / 16.0), place, -TOLERANCE))
 }
 
 fn between(p: &[f64], q: &[f64], share: f64) -> Vec<f64> {
     p.iter().zip(q).map(|(a, b)| a + (b - a) * share).collect()
 }
 
-/// Whether the point is in the shape grown by `margin`.
-fn inside(p: &[f64], shape: &Shape, margin: f64) -> bool {
-    shape.pieces.iter().any(|piece| match piece {
-        Piece::Polytope(polytope) => {
-            polytope.facets.iter().all(|f| product(&floats(&f.normal), p) <= f.offset.to_f64() + margin)
-        }
-        Piece::Ball { center, spread, radius } => {
-            let off = |i: usize| ((p[i] - center[i].to_f64()).abs() - spread[i].to_f64()).max(0.0);
-            (0..p.len()).map(|i| off(i) * off(i)).sum::<f64>().sqrt() <= radius.to_f64() + margin
+/// Whether the point is in one of the pieces, grown by `margin`.
+fn inside(p: &[f64], place: &Place, margin: f64) -> bool {
+    place.pieces.iter().any(|piece| match piece {
+        Solid::Facets(facets) => facets.iter().all(|(normal, offset)| product(normal, p) <= offset + margin),
+        Solid::Ball { center, spread, radius } => {
+            let off = |i: usize| ((p[i] - center[i]).abs() - spread[i]).max(0.0);
+            (0..p.len()).map(|i| off(i) * off(i)).sum::<f64>().sqrt() <= radius + margin
         }
     })
 }
