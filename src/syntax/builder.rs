@@ -3,8 +3,10 @@
 use crate::diag::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::Doc;
+use crate::syntax::climb::TooDeep;
 use crate::syntax::condensed::Condensed;
 use crate::syntax::docs::Docs;
+use crate::syntax::error;
 use crate::syntax::grammar::{Built, Node, Stop};
 
 /// Builds the tree of one declaration.
@@ -63,6 +65,11 @@ impl<'a> Builder<'a> {
     pub(super) fn stop<T>(&mut self, diagnostic: Diagnostic) -> Built<T> {
         self.errors.push(diagnostic);
         Err(Stop)
+    }
+
+    /// What a chain gives, unless it has too many levels; `what` and `span` say where.
+    pub(super) fn shallow<T>(&mut self, read: Result<T, TooDeep>, what: &str, span: Span) -> Built<T> {
+        read.or_else(|TooDeep| self.stop(error::too_deep(span, what)))
     }
 
     /// How many units have been read.

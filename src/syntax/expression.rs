@@ -3,16 +3,11 @@
 use crate::source::Span;
 use crate::syntax::ast::{BinaryOp, Expr, ExprKind, IndexRange, Name, Reference};
 use crate::syntax::builder::Builder;
-use crate::syntax::climb::{Climber, Deep, TooDeep};
+use crate::syntax::climb::{Climber, Deep};
 use crate::syntax::error;
 use crate::syntax::grammar::{Built, Children, Node, Rule, Stop};
 
 impl Builder<'_> {
-    /// An expression.
-    pub(super) fn expression(&mut self, node: Node) -> Built<Expr> {
-        self.deep_expression(node).map(|deep| deep.tree)
-    }
-
     /// A constant's value: a table or an expression.
     pub(super) fn value(&mut self, node: Node) -> Built<Expr> {
         let mark = self.units_read();
@@ -58,44 +53,39 @@ impl Builder<'_> {
     }
 
     /// Reads the chains of an expression and of all brackets in it, with a stack of their own.
-    fn deep_expression(&mut self, node: Node) -> Built<Deep<Expr>> {
-        let whole = self.span(&node);
-        let mut open = vec![Chain::new(node, None)];
+    pub(super) fn expression(&mut self, node: Node) -> Built<Expr> {
+        let mut open = vec![self.chain(node, None)];
         while let Some(chain) = open.last_mut() {
-            let read = match chain.rest.next() {
-                Some(child) => match self.expression_link(child, chain)? {
-                    Link::Read(read) => read,
-                    Link::Bracket(inner) => {
-                        open.push(inner);
-                        Ok(())
-                    }
-                },
-                None => {
-                    let done = open.pop().ok_or(Stop)?;
-                    match done.climber.finish() {
-                        Ok(inside) => match self.close(inside.ok_or(Stop)?, done.around, &mut open)? {
-                            Some(whole) => return Ok(whole),
-                            None => Ok(()),
-                        },
-                        Err(deep) => Err(deep),
-                    }
+            if let Some(child) = chain.rest.next() {
+                if let Some(inner) = self.expression_link(child, chain)? {
+                    open.push(inner);
                 }
-            };
-            if read.is_err() {
-                return self.stop(error::too_deep(whole, "expression"));
+                continue;
+            }
+            let Chain { span, climber, around, .. } = open.pop().ok_or(Stop)?;
+            let inside = self.shallow(climber.finish(), "expression", span)?.ok_or(Stop)?;
+            match around {
+                Some(bracket) => self.go_on(bracket, inside, &mut open)?,
+                None => return Ok(inside.tree),
             }
         }
         Err(Stop)
     }
 
-    /// Reads one operator or operand of a chain.
-    fn expression_link<'i>(&mut self, node: Node<'i>, chain: &mut Chain<'i>) -> Built<Link<'i>> {
-        Ok(match node.as_rule() {
-            Rule::minus => Link::Read(chain.climber.prefix(Operator::Negate(self.span(&node)), 3)),
+    fn chain<'i>(&self, expression: Node<'i>, around: Option<Bracket<'i>>) -> Chain<'i> {
+        let span = self.span(&expression);
+        let climber = Climber::new(apply);
+        Chain { span, rest: Children::of(expression), climber, base: None, power: false, around }
+    }
+
+    /// Reads one operator or operand of a chain; gives the chain in a bracket, which has to be read first.
+    fn expression_link<'i>(&mut self, node: Node<'i>, chain: &mut Chain<'i>) -> Built<Option<Chain<'i>>> {
+        let read = match node.as_rule() {
+            Rule::minus => chain.climber.prefix(Operator::Negate(self.span(&node)), 3),
             Rule::arithmetic => {
                 chain.power = node.as_str() == "^";
                 let (op, level, right) = arithmetic(node.as_str())?;
-                Link::Read(chain.climber.infix(Operator::Binary(op), level, right))
+                chain.climber.infix(Operator::Binary(op), level, right)
             }
             _ => {
                 if chain.power {
@@ -105,12 +95,14 @@ impl Builder<'_> {
                 }
                 let operand = Children::of(node).expect_any()?;
                 if let Some(bracket) = self.bracket(&operand)? {
-                    return Ok(Link::Bracket(bracket));
+                    return Ok(Some(bracket));
                 }
                 chain.climber.operand(self.operand(operand)?);
-                Link::Read(Ok(()))
+                Ok(())
             }
-        })
+        };
+        self.shallow(read, "expression", chain.span)?;
+        Ok(None)
     }
 
     /// The chain inside an operand's bracket, if it has one.
@@ -133,28 +125,25 @@ impl Builder<'_> {
         };
         let first = rest.expect(Rule::expression)?;
         let bracket = Bracket { kind, span, mark, rest, inside: Vec::new(), levels: 0 };
-        Ok(Some(Chain::new(first, Some(bracket))))
+        Ok(Some(self.chain(first, Some(bracket))))
     }
 
-    /// Ends the innermost chain: the whole expression, or something inside a bracket, which goes on or ends too.
-    fn close<'i>(
+    /// Takes what was read inside a bracket, and reads on inside it or ends it.
+    fn go_on<'i>(
         &mut self,
+        mut bracket: Bracket<'i>,
         inside: Deep<Expr>,
-        around: Option<Bracket<'i>>,
         open: &mut Vec<Chain<'i>>,
-    ) -> Built<Option<Deep<Expr>>> {
-        let Some(mut bracket) = around else {
-            return Ok(Some(inside));
-        };
+    ) -> Built<()> {
         bracket.levels = bracket.levels.max(inside.levels);
         bracket.inside.push(inside.tree);
         if let Some(next) = bracket.rest.take_if(Rule::expression) {
-            open.push(Chain::new(next, Some(bracket)));
-            return Ok(None);
+            open.push(self.chain(next, Some(bracket)));
+            return Ok(());
         }
         let operand = self.close_bracket(bracket)?;
         open.last_mut().ok_or(Stop)?.climber.operand(operand);
-        Ok(None)
+        Ok(())
     }
 
     fn close_bracket(&mut self, mut bracket: Bracket) -> Built<Deep<Expr>> {
@@ -249,19 +238,13 @@ impl Builder<'_> {
 
 /// An operator chain that is being read: a whole expression, or one of those in a bracket.
 struct Chain<'i> {
+    span: Span,
     rest: Children<'i>,
     climber: Climber<Operator, Expr>,
     /// The operand before the last run of `^`, and whether such a run is being read.
     base: Option<Node<'i>>,
     power: bool,
     around: Option<Bracket<'i>>,
-}
-
-impl<'i> Chain<'i> {
-    fn new(expression: Node<'i>, around: Option<Bracket<'i>>) -> Chain<'i> {
-        let climber = Climber::new(apply);
-        Chain { rest: Children::of(expression), climber, base: None, power: false, around }
-    }
 }
 
 /// An operand with brackets whose inside is being read.
@@ -280,14 +263,6 @@ enum BracketKind {
     Group,
     Call(Name),
     Index(Name),
-}
-
-/// What reading one part of a chain leads to.
-enum Link<'i> {
-    /// It was read, unless the chain is too deep.
-    Read(Result<(), TooDeep>),
-    /// A bracket has to be read first.
-    Bracket(Chain<'i>),
 }
 
 /// What waits for its operand.

@@ -6,7 +6,7 @@ use crate::syntax::ast::{
     TermKind, UnaryOp, Window,
 };
 use crate::syntax::builder::Builder;
-use crate::syntax::climb::{Climber, Deep, MAX_LEVELS, TooDeep};
+use crate::syntax::climb::{Climber, Deep, MAX_LEVELS};
 use crate::syntax::error;
 use crate::syntax::grammar::{Built, Children, Node, Rule, Stop};
 use crate::syntax::shape::comparison;
@@ -17,73 +17,63 @@ const QUANTIFIER_LEVEL: u8 = 0;
 const PREFIX_LEVEL: u8 = 6;
 
 impl Builder<'_> {
-    /// A formula.
-    pub(super) fn formula(&mut self, node: Node) -> Built<Formula> {
-        self.deep_formula(node).map(|deep| deep.tree)
-    }
-
     /// Reads the chains of a formula and of all brackets in it, with a stack of their own.
-    fn deep_formula(&mut self, node: Node) -> Built<Deep<Formula>> {
-        let whole = self.span(&node);
-        let mut open = vec![Chain { span: whole, rest: Children::of(node), climber: Climber::new(apply) }];
+    pub(super) fn formula(&mut self, node: Node) -> Built<Formula> {
+        let span = self.span(&node);
+        let mut open = vec![Chain { span, rest: Children::of(node), climber: Climber::new(apply) }];
         while let Some(chain) = open.last_mut() {
-            let read = match chain.rest.next() {
-                Some(child) => match self.formula_link(child, &mut chain.climber)? {
-                    Link::Read(read) => read,
-                    Link::Bracket(inner) => {
+            match chain.rest.next() {
+                Some(child) => {
+                    if let Some(inner) = self.formula_link(child, chain)? {
                         open.push(inner);
-                        Ok(())
                     }
-                },
-                None => match self.close_chain(&mut open)? {
-                    Some(whole) => return Ok(whole),
-                    None => Ok(()),
-                },
-            };
-            if read.is_err() {
-                return self.stop(error::too_deep(whole, "formula"));
+                }
+                None => {
+                    if let Some(whole) = self.close_chain(&mut open)? {
+                        return Ok(whole);
+                    }
+                }
             }
         }
         Err(Stop)
     }
 
-    /// Reads one operator or operand of a chain.
-    fn formula_link<'i>(&mut self, node: Node<'i>, climber: &mut FormulaClimber) -> Built<Link<'i>> {
-        Ok(match node.as_rule() {
+    /// Reads one operator or operand of a chain; gives the chain in a bracket, which has to be read first.
+    fn formula_link<'i>(&mut self, node: Node<'i>, chain: &mut Chain) -> Built<Option<Chain<'i>>> {
+        let read = match node.as_rule() {
             Rule::prefix => {
                 let (operator, level) = self.prefix(node)?;
-                Link::Read(climber.prefix(operator, level))
+                chain.climber.prefix(operator, level)
             }
             Rule::connective => {
                 let (operator, level, right) = self.connective(node)?;
-                Link::Read(climber.infix(operator, level, right))
+                chain.climber.infix(operator, level, right)
             }
             _ => {
                 let atom = Children::of(node).expect_any()?;
                 let span = self.span(&atom);
                 if atom.as_rule() == Rule::formula_group {
                     let rest = Children::of(Children::of(atom).expect(Rule::formula)?);
-                    return Ok(Link::Bracket(Chain { span, rest, climber: Climber::new(apply) }));
+                    return Ok(Some(Chain { span, rest, climber: Climber::new(apply) }));
                 }
                 let kind = self.atom(atom)?;
-                climber.operand(Deep::leaf(Formula { span, kind }));
-                Link::Read(Ok(()))
+                chain.climber.operand(Deep::leaf(Formula { span, kind }));
+                Ok(())
             }
-        })
+        };
+        self.shallow(read, "formula", chain.span)?;
+        Ok(None)
     }
 
     /// Ends the innermost chain: an operand of the one around it, or the whole formula.
-    fn close_chain(&mut self, open: &mut Vec<Chain>) -> Built<Option<Deep<Formula>>> {
-        let done = open.pop().ok_or(Stop)?;
-        let inside = match done.climber.finish() {
-            Ok(tree) => tree.ok_or(Stop)?,
-            Err(TooDeep) => return self.stop(error::too_deep(done.span, "formula")),
-        };
+    fn close_chain(&mut self, open: &mut Vec<Chain>) -> Built<Option<Formula>> {
+        let Chain { span, climber, .. } = open.pop().ok_or(Stop)?;
+        let inside = self.shallow(climber.finish(), "formula", span)?.ok_or(Stop)?;
         let Some(around) = open.last_mut() else {
-            return Ok(Some(inside));
+            return Ok(Some(inside.tree));
         };
         let kind = FormulaKind::Parenthesised(Box::new(inside.tree));
-        around.climber.operand(Deep { tree: Formula { span: done.span, kind }, levels: inside.levels + 1 });
+        around.climber.operand(Deep { tree: Formula { span, kind }, levels: inside.levels + 1 });
         Ok(None)
     }
 
@@ -250,21 +240,11 @@ impl Builder<'_> {
     }
 }
 
-type FormulaClimber = Climber<Operator, Formula>;
-
 /// An operator chain that is being read: a whole formula or the inside of a bracket.
 struct Chain<'i> {
     span: Span,
     rest: Children<'i>,
-    climber: FormulaClimber,
-}
-
-/// What reading one part of a chain leads to.
-enum Link<'i> {
-    /// It was read, unless the chain is too deep.
-    Read(Result<(), TooDeep>),
-    /// A bracket has to be read first.
-    Bracket(Chain<'i>),
+    climber: Climber<Operator, Formula>,
 }
 
 /// What a quantifier runs over.
