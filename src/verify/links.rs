@@ -128,16 +128,18 @@ fn connected(plan: &Resolved, asked: &Connectivity, t: usize, links: &[Link], le
     let losses = (asked.redundancy as usize).min(robots.saturating_sub(1));
     let mut lost = vec![false; robots];
     for_each_subset(robots, losses, &mut lost, &mut |lost| {
-        for (robot, reached) in graph.reached(lost, limit).into_iter().enumerate() {
-            ledger.claim(Kind::Connectivity, reached || lost[robot], || {
-                let names: Vec<&str> =
-                    plan.robots.iter().filter(|(id, _)| lost[id.index()]).map(|(_, r)| r.name).collect();
-                let without =
-                    if names.is_empty() { String::new() } else { format!(" without {}", names.join(", ")) };
-                let name = plan.robots.values().nth(robot).map_or("", |r| r.name);
-                (Place::robot(name).at(t), format!("reaches no base within {limit} links{without}"))
-            });
-        }
+        let reached = graph.reached(lost, limit);
+        let cut_off = (0..robots).find(|&robot| !reached[robot] && !lost[robot]);
+        ledger.claim(Kind::Connectivity, cut_off.is_none(), || {
+            let named = |wanted: &dyn Fn(usize) -> bool| -> String {
+                let names = plan.robots.iter().filter(|(id, _)| wanted(id.index())).map(|(_, r)| r.name);
+                names.collect::<Vec<_>>().join(", ")
+            };
+            let without = named(&|robot| lost[robot]);
+            let without = if without.is_empty() { without } else { format!(" without {without}") };
+            let place = Place::robot(&named(&|robot| Some(robot) == cut_off)).at(t);
+            (place, format!("reaches no base within {limit} links{without}"))
+        });
     });
 }
 
