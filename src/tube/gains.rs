@@ -14,6 +14,8 @@ use super::program::{Answer, Column, Optimum, Program, Terms};
 const WORTHWHILE: f64 = 0.01;
 /// The weight of all that is no position, to break ties.
 const TIE_BREAK: f64 = 1e-4;
+/// How much longer than the shortest memory that of an explanation is at most.
+const EXPLAINED: usize = 8;
 /// The share of a state's bound that the tube may take.
 const STATE_ROOM: f64 = 0.99;
 /// Disturbances below this share of the block's largest are left out of the program.
@@ -87,7 +89,9 @@ pub(super) fn gains(scaled: &Scaled, search: Search) -> Result<Gains, NoGains> {
     let Search { beta, from, longest, enough } = search;
     let mut best: Option<Gains> = None;
     let mut failed = false;
-    for k in from..=longest {
+    let (mut k, mut jump) = (from, 1);
+    while k <= longest {
+        let mut stride = 1;
         match gains_of_length(scaled, k, Aim::Position { beta }) {
             Ok(found) if found.cost <= enough => return Ok(found),
             Ok(found) => {
@@ -98,11 +102,16 @@ pub(super) fn gains(scaled: &Scaled, search: Search) -> Result<Gains, NoGains> {
                 best = Some(found);
             }
             Err(NoGains::Numerics) => failed = true,
-            Err(_) => {}
+            // What fails with one memory fails with each shorter one, so no length is wrongly refused.
+            Err(_) => {
+                stride = jump;
+                jump *= 2;
+            }
         }
         if failed && best.is_some() {
             break;
         }
+        k = if k < longest { longest.min(k + stride) } else { longest + 1 };
     }
     match best {
         Some(gains) => Ok(gains),
@@ -112,7 +121,10 @@ pub(super) fn gains(scaled: &Scaled, search: Search) -> Result<Gains, NoGains> {
 }
 
 /// What would have to give way for there to be gains.
+///
+/// A memory of moderate length is enough to say something that would do.
 fn reason(scaled: &Scaled, beta: f64, longest: usize) -> NoGains {
+    let longest = longest.min(shortest(scaled) + EXPLAINED);
     if let Ok(gains) = gains_of_length(scaled, longest, Aim::Inputs) {
         return NoGains::Inputs { share: gains.share };
     }
