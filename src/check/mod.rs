@@ -5,6 +5,7 @@
 //! failed is kept as [`Reported`], so that whatever refers to it stays silent.
 
 mod bounds;
+mod connectivity;
 mod constants;
 mod dynamics;
 mod expression;

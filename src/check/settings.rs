@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::expression::Scope;
+use crate::check::connectivity::ANY_HOPS;
+use crate::check::expression::{Scope, Value};
 use crate::check::typed::DynamicsId;
 use crate::check::{Checker, messages};
 use crate::diag::Reported;
@@ -10,7 +11,7 @@ use crate::exact::Rational;
 use crate::ir;
 use crate::quantity::Dimension;
 use crate::source::Span;
-use crate::syntax::ast::{self, ConnectivityKind, Expr, ItemKind};
+use crate::syntax::ast::{self, Expr, ItemKind, Name};
 
 /// The longest horizon, window or distance between required links, in steps.
 pub(super) const MAX_STEPS: i64 = 100_000;
@@ -29,6 +30,8 @@ pub(super) struct Settings {
     pub(super) separation: Option<(Rational, Span)>,
     /// `None` with `connectivity none`.
     pub(super) connectivity: Option<ir::Connectivity>,
+    /// `every` as written with its place, until the step is known.
+    pub(super) every: Option<(Value, Span)>,
     /// The lengths that may be tried.
     pub(super) horizon: (usize, usize),
     /// What to minimise.
@@ -43,14 +46,12 @@ impl Default for Settings {
             steps: Vec::new(),
             separation: None,
             connectivity: Some(ANY_HOPS),
+            every: None,
             horizon: DEFAULT_HORIZON,
             objective: None,
         }
     }
 }
-
-/// Every robot reaches a base over any number of links, always.
-const ANY_HOPS: ir::Connectivity = ir::Connectivity { hops: None, range: None, redundancy: 0, every: 1 };
 
 impl Checker<'_> {
     /// Reads every setting that does not depend on robots or models; the parser has seen to the edition.
@@ -82,11 +83,19 @@ impl Checker<'_> {
             }
             ItemKind::Connectivity(ast::Connectivity::Items(items)) => self.connectivity(items),
             ItemKind::Horizon { from, to } => self.horizon(from, to),
-            ItemKind::Minimize(word) => match word.text.as_str() {
-                "effort" | "length" => Err(self.report(messages::unsupported("`minimize`", span))),
-                _ => Err(self.report(messages::unknown_objective(word))),
-            },
+            ItemKind::Minimize(word) => {
+                self.settings.objective = Some(self.objective(word)?);
+                Err(self.report(messages::unsupported("`minimize`", span)))
+            }
             _ => Ok(()),
+        }
+    }
+
+    fn objective(&mut self, word: &Name) -> Result<ir::Objective, Reported> {
+        match word.text.as_str() {
+            "effort" => Ok(ir::Objective::Effort),
+            "length" => Ok(ir::Objective::Length),
+            _ => Err(self.report(messages::unknown_objective(word))),
         }
     }
 
@@ -109,40 +118,10 @@ impl Checker<'_> {
         Ok(())
     }
 
-    fn connectivity(&mut self, items: &[ast::ConnectivityItem]) -> Result<(), Reported> {
-        let mut connectivity = ANY_HOPS;
-        let mut firsts: Vec<(&'static str, Span)> = Vec::new();
-        let mut failed = None;
-        for item in items {
-            let word = connectivity_word(&item.kind);
-            if let Some((_, first)) = firsts.iter().find(|(w, _)| *w == word) {
-                failed = Some(self.report(messages::repeated(word, *first, item.span)));
-                continue;
-            }
-            firsts.push((word, item.span));
-            match &item.kind {
-                ConnectivityKind::Hops(expr) => match self.hops(expr) {
-                    Ok(hops) => connectivity.hops = Some(hops),
-                    Err(reported) => failed = Some(reported),
-                },
-                _ => failed = Some(self.report(messages::unsupported(&format!("`{word}`"), item.span))),
-            }
-        }
-        self.settings.connectivity = Some(connectivity);
-        failed.map_or(Ok(()), Err)
-    }
-
-    fn hops(&mut self, expr: &Expr) -> Result<u32, Reported> {
-        let hops = self.whole(expr, &Scope::default())?;
-        u32::try_from(hops)
-            .ok()
-            .filter(|h| (1..=MAX_STEPS as u32).contains(h))
-            .ok_or_else(|| self.report(messages::bad_hops(expr.span, hops)))
-    }
-
     /// Looks at what several declarations say together: one step for all models in use, some base.
     pub(super) fn cross_settings(&mut self) {
         self.common_step();
+        self.resolve_every();
         let file = self.file;
         let bases = file.items.iter().any(|i| matches!(i.kind, ItemKind::Base { .. }));
         let unread = bases && self.bases.is_empty() && self.diagnostics.has_errors();
@@ -189,14 +168,5 @@ fn setting_word(kind: &ItemKind) -> Option<&'static str> {
         ItemKind::Horizon { .. } => Some("horizon"),
         ItemKind::Minimize(_) => Some("minimize"),
         _ => None,
-    }
-}
-
-fn connectivity_word(kind: &ConnectivityKind) -> &'static str {
-    match kind {
-        ConnectivityKind::Hops(_) => "hops",
-        ConnectivityKind::Range { .. } => "range",
-        ConnectivityKind::Redundancy(_) => "redundancy",
-        ConnectivityKind::Every(_) => "every",
     }
 }

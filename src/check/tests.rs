@@ -227,6 +227,22 @@ fn assignments_from_the_command_line_are_checked() {
 }
 
 #[test]
+fn what_connectivity_asks_by_default_may_be_written_out() {
+    let plain = problem(&small(""), &[]);
+    assert_eq!(
+        plain.connectivity,
+        problem(&small("connectivity { redundancy 0 every 500 ms }"), &[]).connectivity
+    );
+    assert_eq!(
+        plain.connectivity.map(|c| (c.hops, c.range, c.redundancy, c.every)),
+        Some((None, None, 0, 1))
+    );
+    assert_eq!(problem(&small("connectivity none"), &[]).connectivity, None);
+    assert_eq!(codes(&small("connectivity { every 0 }")), ["bad_every"]);
+    assert_eq!(codes(&small("connectivity { hops <= 2 hops <= 3 }")), ["duplicate"]);
+}
+
+#[test]
 fn sets_count_each_robot_once() {
     let text = small(
         "robot fleet[i in 1..2]: Rover at (3 + i, 2)

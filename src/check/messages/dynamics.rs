@@ -119,10 +119,11 @@ pub(in crate::check) fn repeated_interval(name: &Name, first: Span) -> Diagnosti
     Diagnostic::error("dosm::check::duplicate", message, name.span, "again").with_label(first, "first here")
 }
 
-pub(in crate::check) fn empty_interval(span: Span, lo: &Rational, hi: &Rational) -> Diagnostic {
-    let message = format!("the interval is empty: {lo} is above {hi}");
+/// The ends are given as written, so that the help can swap them.
+pub(in crate::check) fn empty_interval(span: Span, from: &str, to: &str) -> Diagnostic {
+    let message = format!("the interval is empty: {from} is above {to}");
     Diagnostic::error("dosm::check::empty_interval", message, span, "lower end above the upper one")
-        .with_help(format!("write `[{hi}, {lo}]`"))
+        .with_help(format!("write `[{to}, {from}]`"))
 }
 
 pub(in crate::check) fn point_bound(span: Span) -> Diagnostic {

@@ -2,6 +2,7 @@
 
 use crate::check::names::nearest;
 use crate::diag::Diagnostic;
+use crate::exact::Rational;
 use crate::source::Span;
 use crate::syntax::ast::Name;
 
@@ -28,6 +29,16 @@ pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
     let message = format!("a path to a base has at least one link, not {hops}");
     let message = if hops < 1 { message } else { format!("{hops} links are too many") };
     Diagnostic::error("dosm::check::bad_hops", message, span, "not a number of links")
+}
+
+pub(in crate::check) fn bad_redundancy(span: Span, lost: i64, most: i64) -> Diagnostic {
+    let message = format!("0 to {most} robots may be lost, not {lost}");
+    Diagnostic::error("dosm::check::bad_redundancy", message, span, "not a number of robots to lose")
+}
+
+pub(in crate::check) fn bad_every(span: Span, steps: &Rational) -> Diagnostic {
+    let message = format!("links are required every so many whole steps, not every {steps}");
+    Diagnostic::error("dosm::check::bad_every", message, span, "not a whole number of steps, 1 or more")
 }
 
 pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {
