@@ -350,6 +350,9 @@ fn goals_that_decide_themselves_are_seen() {
     assert_eq!(goal("count(r in all: r in depot) = 2"), ["false_goal"]);
     assert_eq!(goal("eventually true"), ["trivial_goal"]);
     assert!(goal("R1 in depot or not R1 in depot").is_empty());
+    // A robot that could not be read might be the second one.
+    let unread = "robot R2 Rover at (3, 3) goal g: count(r in all: r in depot) = 2";
+    assert_eq!(codes(&small(unread)), ["expected"]);
     assert!(goal("eventually R1 in depot and eventually not R1 in depot").is_empty());
 }
 

@@ -225,9 +225,9 @@ pub(super) fn unreadable(span: Span) -> Diagnostic {
 }
 
 pub(super) fn reserved_word(span: Span, word: &str) -> Diagnostic {
-    let what = match word {
-        "X" | "F" | "G" | "U" | "R" | "W" | "M" => "an operator of formulas",
-        _ => "a word of the language",
+    let what = match operator_word(word) {
+        Some(operator) => format!("the operator `{operator}`"),
+        None => "a word of the language".to_owned(),
     };
     Diagnostic::error(
         "dosm::syntax::reserved_word",
@@ -236,6 +236,20 @@ pub(super) fn reserved_word(span: Span, word: &str) -> Diagnostic {
         "a name is expected here",
     )
     .with_help(format!("choose another name, such as `{}`", other_name(word)))
+}
+
+/// The word that an operator's letter stands for.
+pub(super) fn operator_word(letter: &str) -> Option<&'static str> {
+    Some(match letter {
+        "X" => "next",
+        "F" => "eventually",
+        "G" => "always",
+        "U" => "until",
+        "R" => "release",
+        "W" => "weak until",
+        "M" => "strong release",
+        _ => return None,
+    })
 }
 
 /// A name near a reserved word.

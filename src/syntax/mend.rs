@@ -82,7 +82,10 @@ pub(super) fn help(case: &Case) -> Option<String> {
         "[" if case.before().ends_with('[') => "rows are separated by `;`: `[1, 0; 0, 1]`",
         "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
         word if is_reserved(word) && case.failure.expects_name() => {
-            "it is a word of the language and can't be a name"
+            return Some(match error::operator_word(word) {
+                Some(operator) => format!("`{word}` stands for `{operator}` and can't be a name"),
+                None => "it is a word of the language and can't be a name".to_owned(),
+            });
         }
         word if is_word(word) => return case.nearest_keyword().map(|near| format!("did you mean `{near}`?")),
         _ => return None,

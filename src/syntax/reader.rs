@@ -195,13 +195,22 @@ impl<'a> Reader<'a> {
     }
 
     /// Keeps a whole declaration before the place of the failure; gives where the rest begins.
+    ///
+    /// What follows on the same line was meant as a part of it, unless it is a `;`.
     fn keep_beginning(&mut self, failure: &Failure, stretch: &Stretch) -> usize {
         let text = self.text(stretch);
         let Ok(pairs) = grammar::run(Rule::leading_declaration, text) else { return 0 };
         let Ok(node) = first(pairs) else { return 0 };
         let end = node.as_str().trim_end().len();
-        let gap = text.get(end..failure.position).unwrap_or("-");
-        if stretch.reported || !gap.trim().is_empty() || self.build(node, stretch).is_err() {
+        let between = text.get(end..failure.position).is_some_and(|gap| gap.trim().is_empty());
+        let start = stretch.range.start;
+        let gap = Span {
+            start: self.place(start, start + end).end,
+            end: self.place(start + failure.position, start + failure.position + 1).start,
+        };
+        let apart =
+            self.source.slice(gap).contains('\n') || expected::token_at(text, failure.position) == ";";
+        if stretch.reported || !between || !apart || self.build(node, stretch).is_err() {
             return 0;
         }
         failure.position

@@ -60,7 +60,8 @@ fn reserved_words_are_no_names() {
     check("robot R: Rover at (1, 1)", "reserved_word", "R", "operator");
     check("region in = hull (1, 1)", "reserved_word", "in", "`in_1`");
     check("dynamics D { state goal: m }", "reserved_word", "goal", "`goal_1`");
-    check("goal g: forall X in all: a", "reserved_word", "X", "operator");
+    check("goal g: forall X in all: a", "reserved_word", "X", "operator `next`");
+    check("goal g: always R in a", "expected", "R", "`R` stands for `release` and can't be a name");
     check("dynamics D { position a, region }", "reserved_word", "region", "`region`");
 }
 
