@@ -377,17 +377,18 @@ fn assert_whole(out: &Path) {
 
 #[test]
 fn killed_at_any_moment_no_half_file_stays() {
-    for attempt in 0..60 {
+    const POINTS: u32 = 200;
+    let started = Instant::now();
+    let (_keep, out, _) = solved(REACH, &[]);
+    let whole = started.elapsed();
+    assert_whole(&out);
+    for point in 0..POINTS {
         let dir = temporary();
         let out = dir.path().join("out");
         let mut command = dosmc();
-        let mut child = command
-            .args(["solve", "examples/paper/fig2-4.dosm", "-o", path(&out)])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("it starts");
-        std::thread::sleep(Duration::from_millis(4 * attempt));
+        command.args(["solve", REACH, "-o", path(&out)]).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().expect("it starts");
+        std::thread::sleep(whole * point / POINTS);
         // It may have ended by itself.
         let _ = child.kill();
         child.wait().expect("it ends");
@@ -395,8 +396,25 @@ fn killed_at_any_moment_no_half_file_stays() {
     }
 }
 
+#[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_the_old_plan() {
+    let (_keep, out, _) = solved(REACH, &[]);
+    let before = fs::read(out.join("plan.json")).expect("a plan");
+    // No file may grow beyond a block or two, as on a disk that is full.
+    let limited = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
+    let program = env!("CARGO_BIN_EXE_dosmc");
+    let mut command = Command::new("sh");
+    command.args(["-c", limited, "sh", program, "solve", REACH, "-o", path(&out)]).current_dir(root());
+    let output = command.output().expect("a shell");
+    assert_eq!(status(&output), 1, "{output:?}");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("dosm::cli::unwritable"));
+    assert_eq!(fs::read(out.join("plan.json")).expect("a plan"), before);
+    assert_eq!(fs::read_dir(&out).expect("it is there").count(), 2, "no temporary file stays");
+}
+
+#[test]
+fn a_place_that_is_taken_leaves_the_old_plan() {
     let (_keep, out, _) = solved(REACH, &[]);
     let before = fs::read(out.join("plan.json")).expect("a plan");
     // A directory in the place of the picture can't be replaced by a file.
