@@ -44,35 +44,41 @@ pub(super) fn inspect(
     }
 }
 
-/// The regions of which a model's tube leaves nothing.
+/// The regions of which a model's tube leaves nothing, among those that formulas ask for.
 fn emptied(problem: &Problem, sets: &[Option<ErrorSet>]) -> BTreeSet<(ModelId, RegionId)> {
-    let mut emptied = BTreeSet::new();
-    for (model, set) in problem.models.ids().zip(sets) {
-        let Some(set) = set else { continue };
-        for (region, declared) in problem.regions.iter() {
-            let fits = |piece: &Piece| piece_has_room(piece, &problem.workspace, set.positions());
-            if !declared.shape.pieces.iter().any(fits) {
-                emptied.insert((model, region));
-            }
-        }
-    }
-    emptied
+    let model = |atom: &Atom| (problem.robots[atom.robot].model, atom.region);
+    let asked: BTreeSet<(ModelId, RegionId)> =
+        problem.formulas.nodes().values().flat_map(atoms_in).map(|atom| model(&atom)).collect();
+    let rooms: Vec<Vec<HalfSpace>> = sets
+        .iter()
+        .map(|set| set.as_ref().map_or_else(Vec::new, |s| shrunk(&problem.workspace, s.positions())))
+        .collect();
+    let fits = |(model, region): &(ModelId, RegionId)| {
+        let Some(set) = &sets[model.index()] else { return true };
+        let pieces = &problem.regions[*region].shape.pieces;
+        pieces.iter().any(|piece| piece_has_room(piece, &rooms[model.index()], set.positions()))
+    };
+    asked.into_iter().filter(|pair| !fits(pair)).collect()
 }
 
-/// Whether some z has z ⊕ Ω in both the piece and the workspace, a single z included.
-fn piece_has_room(piece: &Piece, workspace: &Polytope, errors: &Polytope) -> bool {
-    let mut half_spaces = shrunk(workspace, errors);
-    match piece {
-        Piece::Polytope(polytope) => half_spaces.extend(shrunk(polytope, errors)),
-        // Of a ball, only what can be told of Ω alone: its farthest vertices must fit.
-        Piece::Ball { radius, .. } => {
-            let middle = errors.middle();
-            let off =
-                |v: &Vec<Rational>| v.iter().zip(&middle).map(|(a, b)| (a - b) * (a - b)).sum::<Rational>();
-            return errors.vertices.iter().all(|v| off(v) <= radius * radius);
-        }
-    }
-    !matches!(Polytope::from_half_spaces(&half_spaces), Err(ShapeError::Empty))
+/// Whether some z within the shrunk workspace has z ⊕ Ω in the piece, a single z included.
+fn piece_has_room(piece: &Piece, workspace: &[HalfSpace], errors: &Polytope) -> bool {
+    let polytope = match piece {
+        Piece::Polytope(polytope) => polytope,
+        Piece::Ball { radius, .. } => return ball_has_room(radius, errors),
+    };
+    let half_spaces = [workspace, &shrunk(polytope, errors)].concat();
+    let middle = polytope.middle();
+    // One point is enough, and the middle nearly always is one.
+    half_spaces.iter().all(|h| h.contains(&middle))
+        || !matches!(Polytope::from_half_spaces(&half_spaces), Err(ShapeError::Empty))
+}
+
+/// Of a ball, only what can be told of Ω alone: its farthest vertices must fit.
+fn ball_has_room(radius: &Rational, errors: &Polytope) -> bool {
+    let middle = errors.middle();
+    let square = |v: &Vec<Rational>| v.iter().zip(&middle).map(|(a, b)| (a - b) * (a - b)).sum::<Rational>();
+    errors.vertices.iter().all(|v| square(v) <= radius * radius)
 }
 
 fn shrunk(outer: &Polytope, errors: &Polytope) -> Vec<HalfSpace> {
@@ -118,22 +124,28 @@ fn out_of_reach(comparison: &Comparison, impossible: &impl Fn(&Atom) -> bool) ->
     }
 }
 
-/// All atoms that a formula asks to be in.
+/// The atoms that a node itself asks to be in.
+fn atoms_in(formula: &Formula) -> Vec<Atom> {
+    match formula {
+        Formula::In(atom) => vec![*atom],
+        Formula::Compare(comparison) => comparison.terms.iter().map(|(atom, _)| *atom).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// All atoms that a formula and its operands ask to be in.
 fn atoms_of(problem: &Problem, root: FormulaId) -> BTreeSet<Atom> {
     let (mut seen, mut open, mut atoms) = (BTreeSet::from([root]), vec![root], BTreeSet::new());
     while let Some(id) = open.pop() {
-        match &problem.formulas[id] {
-            Formula::True | Formula::False | Formula::Out(_) => {}
-            Formula::In(atom) => {
-                atoms.insert(*atom);
-            }
-            Formula::Compare(comparison) => atoms.extend(comparison.terms.iter().map(|(atom, _)| *atom)),
-            Formula::And(list) | Formula::Or(list) => open.extend(list.iter().filter(|i| seen.insert(**i))),
-            Formula::Next(a) => open.extend([a].into_iter().filter(|i| seen.insert(**i))),
-            Formula::Until(_, a, b) | Formula::Release(_, a, b) => {
-                open.extend([a, b].into_iter().filter(|i| seen.insert(**i)));
-            }
-        }
+        let formula = &problem.formulas[id];
+        atoms.extend(atoms_in(formula));
+        let operands: &[FormulaId] = match formula {
+            Formula::And(list) | Formula::Or(list) => list,
+            Formula::Next(a) => &[*a],
+            Formula::Until(_, a, b) | Formula::Release(_, a, b) => &[*a, *b],
+            _ => &[],
+        };
+        open.extend(operands.iter().filter(|i| seen.insert(**i)));
     }
     atoms
 }
