@@ -20,10 +20,10 @@
 //! 1. [`ir`], the middle of everything: what a mission means once names, units, families and sugar
 //!    are gone. All later phases speak of an [`ir::Problem`].
 //! 2. [`syntax`] reads text into a tree that says what the text says, nothing resolved.
-//! 3. `check` finds out what names, units and shapes mean, with as many diagnostics as it can, and
-//!    `lower` turns the result into the IR.
-//! 4. `tube` takes the disturbance out: a feedback law and the set that errors stay in.
-//! 5. `abstraction`, `encode` and `solve` look for the shortest lasso that, with the tube around
+//! 3. [`check`] finds out what names, units and shapes mean, with as many diagnostics as it can, and
+//!    [`lower`] turns the result into the IR.
+//! 4. [`tube`] takes the disturbance out: a feedback law and the set that errors stay in.
+//! 5. [`abstraction`], [`encode`] and [`solve`] look for the shortest lasso that, with the tube around
 //!    it, is a plan: half-spaces, clauses, and the loop between the Boolean and the convex solver.
 //! 6. [`plan`] is what comes out, with a witness for everything that it claims.
 //! 7. [`verify`] believes none of the above: it checks a plan against a problem in exact arithmetic.
@@ -31,7 +31,8 @@
 //!
 //! [`driver`] is this chain as code. [`cli`] is the command line around it.
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
-//! places in it), [`geometry`] (polytopes, zonotopes) and [`diag`] (one diagnostic for all phases).
+//! places in it), [`quantity`] (dimensions and units), [`geometry`] (polytopes, zonotopes) and
+//! [`diag`] (one diagnostic for all phases).
 //!
 //! # Invariants
 //!
