@@ -407,3 +407,20 @@ fn dimensions_of_a_point_behind_a_bracket_are_one_error() {
     assert_eq!(codes(&small("jammer J = ball (4, 7) s radius 1")), ["wrong_dimension"]);
     assert_eq!(Dimension::LENGTH.to_string(), "m");
 }
+
+#[test]
+fn deep_formulas_and_expressions_fit_a_small_stack() {
+    let formula = |text: String| codes(&small(&format!("goal g: {text}")));
+    let not = "! ".repeat(1990);
+    assert!(formula(format!("eventually ({not} R1 in depot)")).is_empty());
+    let implied = "R1 in depot -> ".repeat(1990);
+    assert!(formula(format!("eventually ({implied} R1 in depot)")).is_empty());
+    let nested = format!("{}R1 in depot{}", "(next ".repeat(250), ")".repeat(250));
+    assert!(formula(nested).is_empty());
+    let quantified = "forall i in 1..1: ".repeat(1900);
+    assert!(formula(format!("{quantified} eventually[0, 1] R1 in depot")).iter().all(|c| c == "hidden_name"));
+    assert!(value(&format!("{}1", "-".repeat(1990))).is_ok());
+    assert!(value(&format!("1{}", " + 1".repeat(1990))).is_ok());
+    assert!(value(&format!("1{}", "^1".repeat(1990))).is_ok());
+    assert!(value(&format!("{}1{}", "min(".repeat(250), ")".repeat(250))).is_ok());
+}

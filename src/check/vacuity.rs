@@ -336,4 +336,71 @@ mod tests {
             false,
         );
     }
+
+    /// What a node says of a run of labels (a bit an atom) that goes on at `back`, two-valued.
+    fn holds(f: &Formulas, id: FormulaId, run: &[u32], back: usize, t: usize) -> bool {
+        let wrap = |t: usize| if t < run.len() { t } else { back + (t - back) % (run.len() - back) };
+        let at = |id: &FormulaId, t: usize| holds(f, *id, run, back, wrap(t));
+        let bit = |a: &Atom| i64::from(run[t] >> a.robot.index() & 1);
+        let window = |w: &Option<(u32, u32)>| w.map_or(0..=2 * run.len(), |(m, n)| m as usize..=n as usize);
+        match &f[id] {
+            Formula::True => true,
+            Formula::False => false,
+            Formula::In(a) => bit(a) == 1,
+            Formula::Out(a) => bit(a) == 0,
+            Formula::Compare(c) => {
+                let sum: i64 = c.terms.iter().map(|(a, k)| k * bit(a)).sum();
+                match c.relation {
+                    Relation::Equal => sum == c.bound,
+                    Relation::NotEqual => sum != c.bound,
+                    Relation::AtLeast => sum >= c.bound,
+                    Relation::AtMost => sum <= c.bound,
+                }
+            }
+            Formula::And(list) => list.iter().all(|a| at(a, t)),
+            Formula::Or(list) => list.iter().any(|a| at(a, t)),
+            Formula::Next(a) => at(a, t + 1),
+            Formula::Until(w, a, b) => window(w).any(|d| at(b, t + d) && (0..d).all(|e| at(a, t + e))),
+            Formula::Release(w, a, b) => window(w).all(|d| at(b, t + d) || (0..d).any(|e| at(a, t + e))),
+        }
+    }
+
+    #[test]
+    fn what_is_called_contradictory_holds_on_no_run() {
+        let mut state = 11u64;
+        let mut below = |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % n
+        };
+        let (mut called, mut satisfiable) = (0, 0);
+        for _ in 0..600 {
+            let mut f = Formulas::new();
+            let mut pool = literals(&mut f).to_vec();
+            let relations = [Relation::Equal, Relation::NotEqual, Relation::AtLeast, Relation::AtMost];
+            pool.push(count(&mut f, relations[below(4)], below(5) as i64 - 1));
+            for _ in 0..5 {
+                let (a, b) = (pool[below(pool.len())], pool[below(pool.len())]);
+                let m = below(2) as u32;
+                let w = if below(2) == 0 { None } else { Some((m, m + below(2) as u32)) };
+                let node = match below(6) {
+                    0 | 1 => Formula::And(vec![a, b]),
+                    2 => Formula::Or(vec![a, b]),
+                    3 => Formula::Next(a),
+                    4 => Formula::Until(w, a, b),
+                    _ => Formula::Release(w, a, b),
+                };
+                pool.push(f.intern(node));
+            }
+            let dead = contradictions(&f);
+            for (id, _) in f.nodes().iter().filter(|(id, _)| dead[id.index()]) {
+                called += 1;
+                for bits in 0..1u32 << 6 {
+                    let run = [bits & 7, bits >> 3];
+                    satisfiable += (0..2).filter(|back| holds(&f, id, &run, *back, 0)).count();
+                }
+            }
+        }
+        assert!(called > 100, "only {called} were called contradictory");
+        assert_eq!(satisfiable, 0);
+    }
 }
