@@ -55,13 +55,16 @@ impl Reach for Anywhere {
     }
 }
 
+/// Offsets in rising order with their literals.
+type Levels = Vec<(f64, Lit)>;
+
 /// The half-space literals of every robot and step, with order axioms between parallel ones and
 /// exclusions between opposite ones.
 #[derive(Debug)]
 pub struct HalfSpaces {
     starts: Table<RobotId, Vec<f64>>,
     /// By robot, step and direction: offsets in rising order with their literals.
-    literals: Vec<Vec<Vec<Vec<(f64, Lit)>>>>,
+    literals: Vec<Vec<Vec<Levels>>>,
     count: usize,
 }
 
@@ -78,11 +81,6 @@ impl HalfSpaces {
     /// How many literals there are.
     pub fn len(&self) -> usize {
         self.count
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
     }
 
     /// The literal of `d · z ≤ offset` for a robot and a step; known at step 0, and where the

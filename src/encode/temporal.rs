@@ -104,11 +104,6 @@ impl Temporal {
         self.later = later;
     }
 
-    /// The number of positions encoded.
-    pub fn positions(&self) -> usize {
-        self.values.len()
-    }
-
     /// What [`extend`](Temporal::extend) wants to know of the next position, in order.
     pub fn asks(&self) -> Vec<Ask> {
         let step = self.values.len();

@@ -110,12 +110,6 @@ impl Conflict {
         }
         refute(&proof, members, self.free_from, self.proof.lasso.length + 1) < 0.0
     }
-
-    /// The last step that the contradiction mentions.
-    pub fn last_step(&self) -> usize {
-        let parts = self.proof.terms.iter().flat_map(|t| &t.functional.parts);
-        parts.map(|p| p.step).max().unwrap_or(0)
-    }
 }
 
 impl Functional {
