@@ -188,6 +188,29 @@ fn erratum_p15_bounds_need_not_hold_zero() {
 }
 
 #[test]
+fn erratum_p15_the_share_also_holds_for_inequalities_over_inputs() {
+    let mut model = cart((-0.05, 0.05));
+    model.input_bounds[0] = interval(-20.0, 0.0);
+    model.mixed_bounds = vec![HalfSpace { normal: point(&[0.0, 0.0, 1.0]), offset: exact(-18.0) }];
+    model.rejection = Some(Rational::ratio(3, 10));
+    // Of the two units between −20 and −18, the feedback may use 0.3 each way of the middle.
+    let tube = tube_for(model).unwrap();
+    assert!(tube.input_half_width(0) <= 0.3 * (1.0 + 1e-6), "{}", tube.input_half_width(0));
+}
+
+#[test]
+fn far_from_the_origin_rounding_takes_a_larger_margin() {
+    let model = integrators(2, 4.0, &[4.0]);
+    let mut problem = empty(vec![model.clone()], 10.0);
+    problem.workspace = problem.workspace.translate(&point(&[1e6, 1e6]));
+    let tubes = synthesize(&problem, &Spans::default(), &mut Diagnostics::new()).unwrap();
+    let tube = &tubes[ModelId::new(0)];
+    assert!(tube.reserve[0] > 1e6 * 100.0 * f64::EPSILON);
+    assert!(tube.residual_allowance[0] > tube.reserve[0]);
+    assert!(tube.state_half_width(0) < 0.301);
+}
+
+#[test]
 fn tubes_scale_with_the_unit_of_length() {
     let plain = tube_for(integrators(2, 4.0, &[4.0])).unwrap();
     for scale in [1e-6, 1e-3, 1e3, 1e6] {
@@ -228,6 +251,12 @@ fn a_tube_with_wrong_numbers_is_not_admitted() {
     };
     assert!(refused(|t| t.m[0][(0, 0)] += 1e-5));
     assert!(refused(|t| t.d[1][(0, 0)] += 1e-5));
+    // The last gain closes the chain: nothing but D_K = 0 tells that it is wrong.
+    assert!(refused(|t| t.m.iter_mut().last().unwrap()[(0, 0)] += 1e-5));
+    assert!(refused(|t| {
+        t.d.pop();
+        t.m.pop();
+    }));
     assert!(refused(|t| t.half_width[0] = 0.2));
     assert!(refused(|t| t.center[0] = 0.3));
     assert!(refused(|t| t.reserve[0] = 1e-3));
@@ -246,6 +275,20 @@ fn an_enclosure_of_the_model_widens_the_margin() {
     assert!(tube.half_width[0] > plain.half_width[0] + 1e-6);
     assert!(tube.residual_allowance[0] > 1.5e-6);
     assert!(admits(&model, &tube));
+    let exact_model = Model { enclosure: None, ..model.clone() };
+    let (with, without) =
+        (residual_room(&model, &tube).unwrap(), residual_room(&exact_model, &tube).unwrap());
+    // |ΔA| Σ|D_i| half_width + |ΔB| Σ|M_i| half_width, all entries of the errors being alike.
+    let sum = |list: &[DMatrix<f64>]| -> Rational {
+        let columns = |m: &DMatrix<f64>| {
+            (0..2).map(|j| exact(m.column(j).abs().sum()) * exact(tube.half_width[j])).sum::<Rational>()
+        };
+        list.iter().map(columns).sum::<Rational>() * exact(1e-9)
+    };
+    let both = (sum(&tube.d) + sum(&tube.m)).to_f64();
+    for (with, without) in with.iter().zip(&without) {
+        assert!(((without - with).to_f64() / both - 1.0).abs() < 1e-9);
+    }
 }
 
 #[test]

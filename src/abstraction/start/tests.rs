@@ -110,6 +110,23 @@ fn regions_that_the_tube_empties_are_errors_only_where_a_goal_needs_them() {
     assert_eq!(outside, ["region_too_small"]);
 }
 
+/// A release may do with its first operand once its window begins later.
+#[test]
+fn a_release_asks_for_its_second_operand_only_at_once() {
+    let release = |from: u32, first: usize| {
+        with(|p| {
+            p.regions[RegionId::new(0)].shape = box_shape(&[0.0, 0.0], &[5.0, 0.1]);
+            let inside =
+                |region: usize| Formula::In(Atom { robot: RobotId::new(0), region: RegionId::new(region) });
+            let (small, other) = (p.formulas.intern(inside(0)), p.formulas.intern(inside(first)));
+            p.goals[0].formula = p.formulas.intern(Formula::Release(Some((from, 5)), other, small));
+        })
+    };
+    assert_eq!(release(0, 1), ["region_too_small"]);
+    assert!(release(1, 1).is_empty());
+    assert_eq!(release(1, 0), ["region_too_small"]);
+}
+
 #[test]
 fn small_discs_are_emptied_by_the_tubes_corners() {
     // The tube's corners are 0.42427 m away from its middle; both robots count.
@@ -137,4 +154,24 @@ fn coupled_axes_give_an_exact_polygon() {
         assert!((up - facet.offset.to_f64()).abs() < 1e-9);
     }
     let _: Table<ModelId, tube::Tube> = tubes;
+}
+
+/// x = z + e hits J iff z ∈ J ⊕ (−Ω): an off-centre tube hits on the side where it lies.
+#[test]
+fn erratum_p3_an_off_centre_tube_hits_on_its_own_side() {
+    let at = |x: f64| {
+        let mut problem = sample::relay();
+        problem.blockers[crate::ir::BlockerId::new(0)].shape = box_shape(&[x - 0.5, -5.0], &[x + 0.5, 5.0]);
+        start(&mut problem, 0, 0.0, 0.0);
+        let spans = Spans::default();
+        let mut tubes = tube::synthesize(&problem, &spans, &mut Diagnostics::new()).unwrap();
+        let tube = &mut tubes[ModelId::new(0)];
+        tube.center[0] = 0.2;
+        let mut diagnostics = Diagnostics::new();
+        let _ = inspect(&problem, &spans, &tubes, &mut diagnostics);
+        diagnostics.iter().any(|d| d.code == "dosm::abstraction::start_in_jammer")
+    };
+    // D_0 + D_1 moves the middle by 0.3 m: the robot is between 0 and 0.6 m.
+    assert!(at(1.0) && at(1.09) && !at(1.11));
+    assert!(!at(-0.51) && at(-0.49));
 }
