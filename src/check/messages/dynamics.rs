@@ -18,6 +18,7 @@ pub(in crate::check) fn different_steps(
     (a, a_span, a_step): (&str, Span, &Rational),
     (b, b_span, b_step): (&str, Span, &Rational),
 ) -> Diagnostic {
+    let [a_step, b_step] = [a_step, b_step].map(super::shown);
     let message = format!("the models `{a}` and `{b}` have different steps: {a_step} s and {b_step} s");
     Diagnostic::error("dosm::check::different_steps", message, b_span, format!("{b_step} s"))
         .with_label(a_span, format!("{a_step} s"))
@@ -25,12 +26,12 @@ pub(in crate::check) fn different_steps(
 }
 
 pub(in crate::check) fn not_positive(span: Span, what: &str, value: &Rational) -> Diagnostic {
-    let message = format!("{what} is above 0, not {value}");
+    let message = format!("{what} is above 0, not {}", super::shown(value));
     Diagnostic::error("dosm::check::not_positive", message, span, "not positive")
 }
 
 pub(in crate::check) fn bad_rejection(span: Span, share: &Rational) -> Diagnostic {
-    let message = format!("the rejection share lies between 0 and 1, not at {share}");
+    let message = format!("the rejection share lies between 0 and 1, not at {}", super::shown(share));
     Diagnostic::error("dosm::check::bad_rejection", message, span, "not between 0 and 1")
 }
 

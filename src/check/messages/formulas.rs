@@ -17,11 +17,12 @@ pub(in crate::check) fn mixed_window(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn negative_window(span: Span, number: &Rational) -> Diagnostic {
-    let message = format!("a window looks ahead: {number} lies in the past");
+    let message = format!("a window looks ahead: {} lies in the past", super::shown(number));
     Diagnostic::error("dosm::check::bad_window", message, span, "below 0")
 }
 
 pub(in crate::check) fn reversed_window(span: Span, m: &Rational, n: &Rational) -> Diagnostic {
+    let [m, n] = [m, n].map(super::shown);
     let message = format!("the window ends at step {n} before it begins at step {m}");
     Diagnostic::error("dosm::check::bad_window", message, span, "the wrong way round")
         .with_help(format!("write `[{n}, {m}]`"))
@@ -38,9 +39,13 @@ pub(in crate::check) fn window_between_steps(
     (m, n): (&Rational, &Rational),
     step: &Rational,
 ) -> Diagnostic {
-    let message = format!("the window's times are no whole numbers of steps of {step} s");
-    let time = |steps: Rational| if steps.is_zero() { "0 s".into() } else { format!("{} s", steps * step) };
-    let window = |from: Rational, to: Rational| format!("`[{}, {}]`", time(from), time(to));
+    let message = format!("the window's times are no whole numbers of steps of {} s", super::shown(step));
+    // Times where they read well; a fraction such as `1/3 s` would not even mean what it says.
+    let decimal = !super::shown(step).contains(['/', 'e']);
+    let end = |steps: Rational| {
+        if decimal { format!("{} s", super::shown(&(steps * step))) } else { super::shown(&steps) }
+    };
+    let window = |from: Rational, to: Rational| format!("`[{}, {}]`", end(from), end(to));
     let inner = (m.ceil(), n.floor());
     let outer = window(m.floor(), n.ceil());
     let help = if inner.0 <= inner.1 {
@@ -48,7 +53,7 @@ pub(in crate::check) fn window_between_steps(
     } else {
         format!("the nearest one that is: {outer}")
     };
-    let label = format!("steps {m} to {n}");
+    let label = format!("steps {} to {}", super::shown(m), super::shown(n));
     Diagnostic::error("dosm::check::window_between_steps", message, span, label).with_help(help)
 }
 

@@ -17,7 +17,7 @@ pub(in crate::check) fn number_out_of_range(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn not_whole(span: Span, number: &Rational) -> Diagnostic {
-    let message = format!("a whole number is needed, not {number}");
+    let message = format!("a whole number is needed, not {}", super::shown(number));
     Diagnostic::error("dosm::check::not_whole", message, span, "not a whole number")
 }
 
@@ -60,7 +60,8 @@ pub(in crate::check) fn unknown_unit(span: Span, symbol: &str) -> Diagnostic {
 }
 
 pub(in crate::check) fn unit_power(span: Span, dimension: Dimension, exponent: &Rational) -> Diagnostic {
-    let message = format!("{} to the power {exponent} has no whole unit", dimension.describe());
+    let message =
+        format!("{} to the power {} has no whole unit", dimension.describe(), super::shown(exponent));
     Diagnostic::error("dosm::check::wrong_dimension", message, span, "no unit measures this")
 }
 

@@ -37,7 +37,7 @@ pub(in crate::check) fn bad_redundancy(span: Span, lost: i64, most: i64) -> Diag
 }
 
 pub(in crate::check) fn bad_every(span: Span, steps: &Rational) -> Diagnostic {
-    let message = format!("links are required every so many whole steps, not every {steps}");
+    let message = format!("links are required every so many whole steps, not every {}", super::shown(steps));
     Diagnostic::error("dosm::check::bad_every", message, span, "not a whole number of steps, 1 or more")
 }
 

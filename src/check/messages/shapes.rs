@@ -69,12 +69,12 @@ pub(in crate::check) fn negative_uncertainty(span: Span) -> Diagnostic {
 }
 
 pub(in crate::check) fn bad_radius(span: Span, radius: &Rational) -> Diagnostic {
-    let message = format!("a ball's radius is above 0, not {radius} m");
+    let message = format!("a ball's radius is above 0, not {} m", super::shown(radius));
     Diagnostic::error("dosm::check::flat_shape", message, span, "not positive")
 }
 
 pub(in crate::check) fn unknown_norm(span: Span, norm: &Rational) -> Diagnostic {
-    let message = format!("there is no ball of norm {norm}");
+    let message = format!("there is no ball of norm {}", super::shown(norm));
     Diagnostic::error("dosm::check::unknown_norm", message, span, "1 or 2, or none for the ∞-norm")
 }
 
@@ -98,7 +98,7 @@ pub(in crate::check) fn box_corners_swapped(
     q: &[Rational],
 ) -> Diagnostic {
     let point = |pick: fn(&Rational, &Rational) -> bool| {
-        let list = p.iter().zip(q).map(|(a, b)| if pick(a, b) { a.to_string() } else { b.to_string() });
+        let list = p.iter().zip(q).map(|(a, b)| super::shown(if pick(a, b) { a } else { b }));
         format!("({})", list.collect::<Vec<_>>().join(", "))
     };
     let help = format!("write `box {} .. {}`", point(|a, b| a < b), point(|a, b| a > b));
@@ -156,7 +156,7 @@ pub(in crate::check) fn bad_half_spaces(
             Diagnostic::error("dosm::check::empty_shape", message, span, "empty")
         }
         ShapeError::Unbounded { direction } => {
-            let list: Vec<String> = direction.iter().map(Rational::to_string).collect();
+            let list: Vec<String> = direction.iter().map(super::shown).collect();
             let message = format!("the shape goes on for ever in the direction ({})", list.join(", "));
             Diagnostic::error("dosm::check::unbounded_shape", message, span, "not bounded")
         }
