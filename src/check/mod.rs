@@ -11,6 +11,7 @@ mod dynamics;
 mod expression;
 mod families;
 mod formulas;
+mod functions;
 mod goals;
 mod hold;
 mod messages;
