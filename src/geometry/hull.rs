@@ -78,10 +78,13 @@ fn wrong_corner(points: &[Point]) -> Option<usize> {
         let onwards = (&b[0] - &a[0]) * (&c[0] - &b[0]) + (&b[1] - &a[1]) * (&c[1] - &b[1]);
         left.is_negative() || (left.is_zero() && onwards.is_negative())
     };
-    let leaves_a_point_outside =
-        |i: usize| points.iter().any(|p| (turn(at(i), at(i + 1), p) * &orientation).is_negative());
-    // The second test catches outlines that turn the same way at each corner but more than once round.
-    (0..n).find(|&i| bends_back(i)).or_else(|| (0..n).find(|&i| leaves_a_point_outside(i)))
+    let upwards = |i: usize| {
+        let (a, b) = (at(i), at(i + 1));
+        (&b[1], &b[0]) > (&a[1], &a[0])
+    };
+    // Outlines that turn the same way at each corner, but more than once round, turn upwards again.
+    let turns_upwards = |i: &usize| !upwards(i + n - 1) && upwards(*i);
+    (0..n).find(|&i| bends_back(i)).or_else(|| (0..n).filter(turns_upwards).nth(1))
 }
 
 /// Andrew's monotone chain.
