@@ -41,6 +41,11 @@ impl PositionTube {
         PositionTube { generators, outline }
     }
 
+    /// The corners in the plane, counter-clockwise.
+    pub(super) fn outline(&self) -> &[[f64; 2]] {
+        &self.outline
+    }
+
     /// A double that is at least the support: the relative error of so short a sum is far below the
     /// share that is added.
     pub(super) fn support(&self, d: &[f64]) -> f64 {

@@ -12,6 +12,7 @@ mod clearance;
 mod directions;
 mod error_set;
 mod narrow_region;
+mod passage;
 mod separation;
 mod solid;
 mod start;
@@ -19,6 +20,7 @@ mod start;
 pub use clearance::{Body, Plane};
 pub use directions::{Direction, DirectionId, Directions};
 pub use error_set::ErrorSet;
+pub use passage::Passage;
 pub use solid::{Owner, Solid, SolidId};
 pub use start::inspect;
 
@@ -35,7 +37,7 @@ use clearance::PositionTube;
 const GAP: f64 = 1e-6;
 
 /// When a direction may be used: the search opens one stage after the other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Normals of the solid's own facets.
     Facets,
@@ -86,6 +88,8 @@ pub struct Abstraction {
     tubes: Table<ModelId, PositionTube>,
     supports: Table<ModelId, Vec<f64>>,
     ceilings: Table<ModelId, Vec<f64>>,
+    /// max d · p over the workspace, by direction.
+    reaches: Vec<f64>,
     inside: Table<RegionId, Vec<Vec<HalfSpace>>>,
     bases: Table<BaseId, Vec<f64>>,
 }
@@ -111,6 +115,7 @@ impl Abstraction {
             tubes: Table::new(),
             supports: Table::new(),
             ceilings: Table::new(),
+            reaches: Vec::new(),
             inside,
             bases: problem.bases.values().map(base).collect(),
         };
@@ -119,13 +124,14 @@ impl Abstraction {
     }
 
     fn add_models(&mut self, problem: &Problem, tubes: &Tubes, corners: &[Vec<f64>], walls: Vec<HalfSpace>) {
+        let most = |d: &Direction| corners.iter().map(|p| dot(&d.vector, p)).fold(f64::MIN, f64::max);
+        self.reaches = self.directions.iter().map(most).collect();
         for (id, model) in problem.models.iter() {
             let mut supports = Vec::new();
             let mut ceilings = Vec::new();
             let tube = PositionTube::new(&tubes[id], &model.position);
-            for direction in self.directions.iter() {
+            for (direction, reach) in self.directions.iter().zip(&self.reaches) {
                 let support = tube.support(&direction.vector);
-                let reach = corners.iter().map(|p| dot(&direction.vector, p)).fold(f64::MIN, f64::max);
                 supports.push(support);
                 ceilings.push(reach - support);
             }
@@ -174,6 +180,24 @@ impl Abstraction {
     /// A base's coordinates.
     pub fn base(&self, id: BaseId) -> &[f64] {
         &self.bases[id]
+    }
+
+    /// The workspace's bounding box as a polygon, counter-clockwise.
+    fn outer_box(&self) -> Vec<[f64; 2]> {
+        let axis = |axis: usize, positive: bool| {
+            let direction = self.directions.axis(axis, positive);
+            let reach = self.reaches[direction.index()];
+            if positive { reach } else { -reach }
+        };
+        let (a, b, c, d) = (axis(0, false), axis(1, false), axis(0, true), axis(1, true));
+        vec![[a, b], [c, b], [c, d], [a, d]]
+    }
+
+    /// A polygon's Minkowski sum with a model's tube (which is symmetric), counter-clockwise.
+    fn inflated(&self, model: ModelId, vertices: &[Vec<f64>]) -> Vec<[f64; 2]> {
+        let outline = self.tubes[model].outline();
+        let sums = vertices.iter().flat_map(|v| outline.iter().map(|c| [v[0] + c[0], v[1] + c[1]]));
+        clearance::convex_hull(sums.collect())
     }
 
     /// The solids of one owner, piece by piece.

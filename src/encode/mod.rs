@@ -20,8 +20,8 @@ use std::collections::{HashMap, HashSet};
 use rustsat::instances::Cnf;
 use rustsat::types::Lit;
 
-use crate::abstraction::{Abstraction, HalfSpace, Owner, SolidId, Stage};
-use crate::ir::{BaseId, Comparison, Problem, RegionId, RobotId};
+use crate::abstraction::{Abstraction, HalfSpace, Owner, Passage, SolidId, Stage};
+use crate::ir::{BaseId, Comparison, ModelId, Problem, RegionId, RobotId};
 
 use circuit::{Circuit, Gate};
 use leaf::HalfSpaces;
@@ -51,20 +51,12 @@ pub enum Switch {
 impl Switch {
     /// All switches.
     pub const ALL: [Switch; 3] = [Switch::Coupled, Switch::Tangents, Switch::Oblique];
-
-    fn of_stage(stage: Stage) -> Option<Switch> {
-        match stage {
-            Stage::Facets => None,
-            Stage::Tangents => Some(Switch::Tangents),
-            Stage::Oblique => Some(Switch::Oblique),
-        }
-    }
 }
 
-/// A disjunct whose meaning waits for a switch.
-#[derive(Clone, Debug)]
+/// A disjunct behind a switch, which gets its meaning when some candidate turns on it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Deferred {
-    Clear(SolidId, Vec<End>),
+    Clear(Stage, SolidId, Vec<End>),
     Apart(RobotId, RobotId, usize),
 }
 
@@ -95,10 +87,12 @@ pub struct Encoder<'a> {
     /// By length: the loop goes back to position k.
     loops: Vec<Vec<Lit>>,
     switches: [Lit; 3],
-    /// What waits for each switch; `None` once it has been switched on.
-    deferred: [Option<Vec<(Lit, Deferred)>>; 3],
+    /// What has no meaning yet.
+    deferred: HashMap<Deferred, Lit>,
     atoms: HashMap<(RobotId, RegionId, usize), (Bit, Bit)>,
     clears: HashMap<(SolidId, Vec<End>), Bit>,
+    passages: HashMap<ModelId, Option<Passage>>,
+    access: HashMap<(RobotId, RegionId, usize), bool>,
     apart: HashSet<(RobotId, RobotId, usize)>,
     cuts: HashMap<(RobotId, RobotId, usize), Vec<f64>>,
 }
@@ -123,9 +117,11 @@ impl<'a> Encoder<'a> {
             lasts: Vec::new(),
             loops: Vec::new(),
             switches,
-            deferred: [const { Some(Vec::new()) }; 3],
+            deferred: HashMap::new(),
             atoms: HashMap::new(),
             clears: HashMap::new(),
+            passages: HashMap::new(),
+            access: HashMap::new(),
             apart: HashSet::new(),
             cuts: HashMap::new(),
         }
@@ -193,6 +189,10 @@ impl<'a> Encoder<'a> {
         let model = self.problem.robots[robot].model;
         let mut pieces = Vec::new();
         for facets in self.abstraction.inside(model, region) {
+            if !self.accessible(robot, region, pieces.len(), &facets) {
+                pieces.push(Bit::False);
+                continue;
+            }
             let rows: Vec<Bit> = facets.iter().map(|f| self.half_space(robot, step, *f)).collect();
             pieces.push(self.circuit.and(rows));
         }
@@ -202,6 +202,20 @@ impl<'a> Encoder<'a> {
         let outside = self.circuit.and(clear);
         self.atoms.insert((robot, region, step), (inside, outside));
         (inside, outside)
+    }
+
+    /// Whether a robot can get from its start to a piece of a region at all.
+    fn accessible(&mut self, robot: RobotId, region: RegionId, piece: usize, facets: &[HalfSpace]) -> bool {
+        let (problem, abstraction) = (self.problem, self.abstraction);
+        let entry = &problem.robots[robot];
+        let passage =
+            self.passages.entry(entry.model).or_insert_with(|| Passage::new(abstraction, entry.model));
+        let Some(passage) = passage else { return true };
+        *self.access.entry((robot, region, piece)).or_insert_with(|| {
+            let position = &problem.models[entry.model].position;
+            let start: Vec<f64> = position.iter().map(|&s| entry.start[s].to_f64()).collect();
+            passage.connects(abstraction, &start, facets)
+        })
     }
 
     fn half_space(&mut self, robot: RobotId, step: usize, half_space: HalfSpace) -> Bit {
@@ -228,9 +242,8 @@ impl<'a> Encoder<'a> {
             let rows: Vec<Bit> = ends.iter().map(|end| self.below(*end, solid, direction)).collect();
             sides.push(self.circuit.and(rows));
         }
-        let later = faces.iter().map(|(s, _)| *s).filter(|s| *s > stage).min();
-        if let Some(switch) = later.and_then(Switch::of_stage) {
-            sides.push(self.defer(switch, Deferred::Clear(solid, ends.to_vec())));
+        if let Some(later) = faces.iter().map(|(s, _)| *s).filter(|s| *s > stage).min() {
+            sides.push(self.defer(Deferred::Clear(later, solid, ends.to_vec())));
         }
         self.circuit.or(sides)
     }
@@ -249,35 +262,51 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// A disjunct behind a switch.
-    fn defer(&mut self, switch: Switch, what: Deferred) -> Bit {
+    fn defer(&mut self, what: Deferred) -> Bit {
+        let switch = match &what {
+            Deferred::Clear(Stage::Oblique, ..) => Switch::Oblique,
+            Deferred::Clear(..) => Switch::Tangents,
+            Deferred::Apart(..) => Switch::Coupled,
+        };
         let lit = self.circuit.deferred_or(self.switches[switch as usize]);
-        match &mut self.deferred[switch as usize] {
-            Some(waiting) => waiting.push((lit, what)),
-            None => self.define_deferred(switch, lit, what),
-        }
+        self.deferred.insert(what, lit);
         Bit::Lit(lit)
     }
 
-    fn define_deferred(&mut self, switch: Switch, lit: Lit, what: Deferred) {
+    /// Gives a deferred disjunct its meaning. False when it has one already.
+    fn define(&mut self, what: Deferred) -> bool {
+        let Some(lit) = self.deferred.remove(&what) else { return false };
         let bit = match what {
-            Deferred::Clear(solid, ends) => {
-                let stage = if switch == Switch::Tangents { Stage::Tangents } else { Stage::Oblique };
-                self.clear_from(stage, solid, &ends)
-            }
+            Deferred::Clear(stage, solid, ends) => self.clear_from(stage, solid, &ends),
             Deferred::Apart(first, second, step) => self.faces(first, second, step),
         };
         self.circuit.resolve(lit, bit);
+        true
     }
 
-    /// Gives everything behind a switch its meaning, now and in future.
-    pub fn open(&mut self, switch: Switch) {
-        for (lit, what) in self.deferred[switch as usize].take().unwrap_or_default() {
-            self.define_deferred(switch, lit, what);
-        }
+    /// Gives the first disjunct that a demand still leaves open its meaning, if there is one.
+    fn define_clear(&mut self, solid: SolidId, ends: &[End]) -> bool {
+        let stages = [Stage::Tangents, Stage::Oblique];
+        stages.into_iter().any(|stage| self.define(Deferred::Clear(stage, solid, ends.to_vec())))
     }
 
-    /// The literal that lets a switch be used; assume its negation to keep it off.
+    /// Says more of what a [clear move](Encoder::demand_clear_move) takes. False when all is said.
+    pub fn sharpen_move(&mut self, robot: RobotId, step: usize, solid: SolidId) -> bool {
+        self.define_clear(solid, &[End::Robot(robot, step), End::Robot(robot, step + 1)])
+    }
+
+    /// Says more of what a [clear link](Encoder::demand_clear_link) takes. False when all is said.
+    pub fn sharpen_link(&mut self, link: Link, step: usize, solid: SolidId) -> bool {
+        self.define_clear(solid, &link_ends(link, step))
+    }
+
+    /// Says more of what it takes to [keep apart](Encoder::demand_apart). False when all is said.
+    pub fn sharpen_apart(&mut self, first: RobotId, second: RobotId, step: usize) -> bool {
+        self.define(Deferred::Apart(first, second, step))
+    }
+
+    /// The literal that lets a switch be used; assume its negation to keep it off. While what is
+    /// behind a switch that is on has no meaning yet, it counts as true.
     pub fn switch(&self, switch: Switch) -> Lit {
         self.switches[switch as usize]
     }
@@ -290,10 +319,7 @@ impl<'a> Encoder<'a> {
 
     /// Demands that a link at a step, if it is used, keeps clear of a solid.
     pub fn demand_clear_link(&mut self, link: Link, step: usize, solid: SolidId) {
-        let ends = match link {
-            Link::Robots(a, b) => vec![End::Robot(a, step), End::Robot(b, step)],
-            Link::Base(robot, base) => vec![End::Robot(robot, step), End::Base(base)],
-        };
+        let ends = link_ends(link, step).to_vec();
         let bit = self.clear(solid, ends);
         let lit = self.links[step].literal(link);
         self.circuit.grow(lit, bit);
@@ -320,7 +346,7 @@ impl<'a> Encoder<'a> {
                 sides.push(self.circuit.and([here, there]));
             }
         }
-        sides.push(self.defer(Switch::Coupled, Deferred::Apart(first, second, step)));
+        sides.push(self.defer(Deferred::Apart(first, second, step)));
         let bit = self.circuit.or(sides);
         self.circuit.require(bit);
     }
@@ -413,6 +439,13 @@ impl<'a> Encoder<'a> {
             connectivity: self.links.iter().map(|l| l.variables).sum(),
             clauses: self.circuit.clauses(),
         }
+    }
+}
+
+fn link_ends(link: Link, step: usize) -> [End; 2] {
+    match link {
+        Link::Robots(a, b) => [End::Robot(a, step), End::Robot(b, step)],
+        Link::Base(robot, base) => [End::Robot(robot, step), End::Base(base)],
     }
 }
 

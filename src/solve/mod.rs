@@ -8,6 +8,8 @@
 
 mod clearance;
 mod convex;
+mod demands;
+mod free;
 mod lemma;
 mod robots;
 mod sat;

@@ -1,6 +1,5 @@
 //! The loop between the Boolean and the convex part.
 
-use std::collections::HashSet;
 use std::time::Duration;
 
 use rustsat::types::{Lit, Var};
@@ -13,7 +12,9 @@ use crate::plan::Nominal;
 use crate::tube::Tubes;
 
 use super::clearance::{Scene, Violation};
-use super::convex::System;
+use super::convex::{Conflict, System};
+use super::demands::Demands;
+use super::free::FreePrograms;
 use super::lemma::Lemma;
 use super::robots::{Refusal, Robots, Trajectory, systems};
 use super::sat::{Answer, Model, Sat};
@@ -58,9 +59,12 @@ impl<'a> Search<'a> {
     pub fn run(mut self) -> (Outcome, Statistics) {
         let mut encoder = Encoder::new(self.problem, self.abstraction, Box::new(Anywhere));
         let mut sat = Sat::new(self.options.watch.clone());
+        let mut demands = Demands::default();
         let mut undecided = false;
         let (from, to) = self.options.horizon;
         let systems = std::mem::take(&mut self.systems);
+        let mut free = FreePrograms::new(self.problem, self.abstraction, &systems);
+        let mut shiftable = Vec::new();
         let mut outcome = None;
         for length in from..=to {
             self.statistics.length = length;
@@ -72,7 +76,9 @@ impl<'a> Search<'a> {
                 robots,
                 length,
                 closed: Switch::ALL.to_vec(),
-                demanded: HashSet::new(),
+                demands: &mut demands,
+                free: &mut free,
+                shiftable: &mut shiftable,
                 undecided: 0,
             };
             match attempt.run() {
@@ -118,7 +124,10 @@ struct Attempt<'s, 'p, 'e> {
     length: usize,
     /// The switches that are still off.
     closed: Vec<Switch>,
-    demanded: HashSet<String>,
+    demands: &'e mut Demands,
+    free: &'e mut FreePrograms<'s>,
+    /// Lemmas that hold at any time, each with the robot that it came from.
+    shiftable: &'e mut Vec<(Lemma, RobotId)>,
     /// How many candidates numbers could not decide.
     undecided: usize,
 }
@@ -127,6 +136,8 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
     fn run(&mut self) -> End {
         let start = self.search.now();
         self.encoder.extend(self.length);
+        self.demands.extend(self.length, self.encoder);
+        self.shift_to_end();
         self.search.statistics.time_encode += self.search.now() - start;
         loop {
             let watch = &self.search.options.watch;
@@ -168,14 +179,11 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         answer
     }
 
-    /// Opens the next switch that the refutation rests on, or ends the length.
+    /// Turns on the next switch that the refutation rests on being off, or ends the length.
     fn refuted(&mut self, core: &[Var]) -> Option<End> {
         let blamed = self.closed.iter().position(|s| core.contains(&self.encoder.switch(*s).var()));
         if let Some(at) = blamed {
-            let switch = self.closed.remove(at);
-            let start = self.search.now();
-            self.encoder.open(switch);
-            self.search.statistics.time_encode += self.search.now() - start;
+            self.closed.remove(at);
             return None;
         }
         if self.undecided > 0 || self.encoder.is_incomplete() {
@@ -229,6 +237,10 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
             self.encoder.learn(&lits, Some((self.length, back)));
             return;
         };
+        if let Some((free, first)) = self.free.generalise(conflict, self.length) {
+            self.learn_free(&free, first);
+            return;
+        }
         let members: Vec<_> = refusal.robots.iter().map(|r| self.robots.member(*r)).collect();
         let (problem, abstraction) = (self.search.problem, self.search.abstraction);
         let lemma = Lemma::new(conflict, problem, abstraction, self.encoder, &members);
@@ -240,40 +252,56 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         }
     }
 
+    /// Adds the lemma of a conflict that holds wherever the robot is at first.
+    fn learn_free(&mut self, conflict: &Conflict, robot: RobotId) {
+        let members = [self.free.member(robot)];
+        let (problem, abstraction) = (self.search.problem, self.search.abstraction);
+        let lemma = Lemma::new(conflict, problem, abstraction, self.encoder, &members);
+        self.search.statistics.lemmas += 1;
+        let own: Vec<Lit> = lemma.rows.iter().map(|row| row.lit).collect();
+        self.encoder.learn(&own, None);
+        self.learn_shifted(&lemma, robot);
+    }
+
+    /// Adds a shiftable lemma at all other times and for all robots with the same model.
     fn learn_shifted(&mut self, lemma: &Lemma, robot: RobotId) {
         let Some((first, last)) = lemma.span() else { return };
-        let robots = &self.search.problem.robots;
-        let same: Vec<RobotId> = robots.ids().filter(|r| robots[*r].model == robots[robot].model).collect();
-        for other in same {
-            for to in 1..=(self.length + 1).saturating_sub(last - first) {
-                if other == robot && to == first {
-                    continue;
-                }
-                if let Some(lits) = lemma.shifted(self.encoder, other, first, to) {
-                    self.encoder.learn(&lits, None);
-                    self.search.statistics.lemmas += 1;
+        let latest = (self.length + 1).saturating_sub(last - first);
+        for other in self.alike(robot) {
+            for to in (1..=latest).filter(|to| (other, *to) != (robot, first)) {
+                self.learn_at(lemma, other, first, to);
+            }
+        }
+        self.shiftable.push((lemma.clone(), robot));
+    }
+
+    /// Adds the shiftable lemmas so far at the positions that a new length brings.
+    fn shift_to_end(&mut self) {
+        for (lemma, robot) in self.shiftable.clone() {
+            let Some((first, last)) = lemma.span() else { continue };
+            let to = (self.length + 1).saturating_sub(last - first);
+            for other in self.alike(robot) {
+                for to in to.saturating_sub(1).max(1)..=to {
+                    self.learn_at(&lemma, other, first, to);
                 }
             }
         }
     }
 
-    fn demand(&mut self, violations: Vec<Violation>, justification: &Justification, back: usize) {
-        let mut new = false;
-        for violation in violations {
-            let key = match &violation {
-                Violation::Apart(a, b, t, _) => format!("{a} {b} {t}"),
-                other => format!("{other:?}"),
-            };
-            new |= self.demanded.insert(key);
-            match violation {
-                Violation::Move(robot, step, solid) => self.encoder.demand_clear_move(robot, step, solid),
-                Violation::Link(link, step, solid) => self.encoder.demand_clear_link(link, step, solid),
-                Violation::Apart(first, second, step, cuts) => {
-                    self.encoder.demand_apart(first, second, step, cuts);
-                }
-            }
+    fn alike(&self, robot: RobotId) -> Vec<RobotId> {
+        let robots = &self.search.problem.robots;
+        robots.ids().filter(|r| robots[*r].model == robots[robot].model).collect()
+    }
+
+    fn learn_at(&mut self, lemma: &Lemma, robot: RobotId, from: usize, to: usize) {
+        if let Some(lits) = lemma.shifted(self.encoder, robot, from, to) {
+            self.encoder.learn(&lits, None);
+            self.search.statistics.lemmas += 1;
         }
-        if !new {
+    }
+
+    fn demand(&mut self, violations: Vec<Violation>, justification: &Justification, back: usize) {
+        if !self.demands.make(violations, self.length, self.encoder) {
             // What was demanded holds and yet is violated: the numbers don't carry this candidate.
             self.undecided += 1;
             let lits: Vec<Lit> = justification.leaves.iter().map(|(lit, _)| *lit).collect();

@@ -102,6 +102,15 @@ impl Conflict {
         (margin > 0.0).then_some(Conflict { proof, uses_loop, free_from: None, margin })
     }
 
+    /// A conflict of a robot that starts anywhere; `None` when the proof doesn't hold.
+    pub fn free(proof: Proof, members: &[Member<'_>]) -> Option<Conflict> {
+        let last = proof.lasso.length + 1;
+        let steps = proof.terms.iter().flat_map(|t| t.functional.parts.iter().map(|p| p.step));
+        let first = steps.min().unwrap_or(0);
+        let margin = -refute(&proof, members, Some(first), last);
+        (margin > 0.0).then_some(Conflict { proof, uses_loop: false, free_from: Some(first), margin })
+    }
+
     /// Whether the contradiction still holds with these bounds in place of the constraints' own.
     pub fn holds_with(&self, bounds: &[f64], members: &[Member<'_>]) -> bool {
         let mut proof = self.proof.clone();

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rustsat::types::Lit;
 
 use crate::abstraction::{Abstraction, DirectionId};
@@ -89,6 +89,10 @@ pub struct Program<'a> {
     nodes: Vec<Node>,
     /// For each member and input: the column of w_0, if the input's block is in the cluster.
     columns: Vec<Vec<Option<usize>>>,
+    /// For each state, the column of its value at step 0, when the start is free.
+    starts: Vec<Option<usize>>,
+    /// (A + B G)^t for each step, when the start is free.
+    powers: Vec<DMatrix<f64>>,
     /// How many columns a step takes.
     stride: usize,
     simplex: Simplex,
@@ -107,6 +111,21 @@ impl<'a> Program<'a> {
         members: Vec<Member<'a>>,
         nodes: Vec<Node>,
     ) -> Program<'a> {
+        Program::build(abstraction, length, members, nodes, false)
+    }
+
+    /// The program of one robot's block that starts anywhere within its bounds.
+    pub fn free(abstraction: &'a Abstraction, length: usize, member: Member<'a>, node: Node) -> Program<'a> {
+        Program::build(abstraction, length, vec![member], vec![node], true)
+    }
+
+    fn build(
+        abstraction: &'a Abstraction,
+        length: usize,
+        members: Vec<Member<'a>>,
+        nodes: Vec<Node>,
+        free: bool,
+    ) -> Program<'a> {
         let mut stride = 0;
         let mut columns: Vec<Vec<Option<usize>>> = members.iter().map(|m| vec![None; m.system.m]).collect();
         for node in &nodes {
@@ -116,14 +135,18 @@ impl<'a> Program<'a> {
                 stride += 1;
             }
         }
+        let (starts, powers) = if free { start_columns(&members, &nodes, length) } else { (vec![], vec![]) };
+        let width = starts.iter().flatten().count();
         let mut program = Program {
             abstraction,
+            starts,
+            powers,
             length,
             members,
             nodes,
             columns,
             stride,
-            simplex: Simplex::new(stride * (length + 1)),
+            simplex: Simplex::new(width + stride * (length + 1)),
             rows: Vec::new(),
             index: HashMap::new(),
             touched: Vec::new(),
@@ -138,7 +161,7 @@ impl<'a> Program<'a> {
             let at = self.member(node.robot);
             let system = self.members[at].system;
             let block = &system.blocks[node.block];
-            for t in 1..=self.length + 1 {
+            for t in usize::from(self.starts.is_empty())..=self.length + 1 {
                 for &s in block.states.iter().filter(|&&s| bounded(system.state_bounds[s])) {
                     self.bound(Key::State(node.robot, t, s), system.state_bounds[s]);
                 }
@@ -208,7 +231,7 @@ impl<'a> Program<'a> {
             return row;
         }
         let functional = self.functional(key);
-        let mut coefficients = vec![0.0; self.stride * (self.length + 1)];
+        let mut coefficients = vec![0.0; self.width() + self.stride * (self.length + 1)];
         let mut constant = 0.0;
         for part in &functional.parts {
             constant += self.add_part(part, &mut coefficients);
@@ -272,7 +295,7 @@ impl<'a> Program<'a> {
                 *weight += x * system.gain[(u, s)];
             }
             if let Some(column) = self.columns[at][u] {
-                coefficients[part.step * self.stride + column] += x * system.units[u];
+                coefficients[self.width() + part.step * self.stride + column] += x * system.units[u];
             }
         }
         for (age, response) in system.responses.iter().enumerate().take(part.step) {
@@ -280,10 +303,39 @@ impl<'a> Program<'a> {
             for (u, column) in self.columns[at].iter().enumerate() {
                 let Some(column) = column else { continue };
                 let gain: f64 = weights.iter().enumerate().map(|(s, x)| x * response[(s, u)]).sum();
-                coefficients[step * self.stride + column] += gain * system.units[u];
+                coefficients[self.width() + step * self.stride + column] += gain * system.units[u];
             }
         }
+        for (s, column) in self.starts.iter().enumerate() {
+            let (Some(column), Some(power)) = (column, self.powers.get(part.step)) else { continue };
+            let gain: f64 = weights.iter().enumerate().map(|(r, x)| x * power[(r, s)]).sum();
+            coefficients[*column] += gain * extent(system.state_bounds[s]);
+        }
         weights.iter().zip(member.free[part.step].iter()).map(|(a, b)| a * b).sum()
+    }
+
+    /// How many columns the start takes.
+    fn width(&self) -> usize {
+        self.starts.iter().flatten().count()
+    }
+
+    /// The contradiction of some half-spaces of one robot, whose steps count from `first`; only for
+    /// a program with a free start.
+    pub fn refute_window(&mut self, constraints: &[(Lit, Leaf)], first: usize) -> Option<Conflict> {
+        self.reset();
+        for (at, (_, leaf)) in constraints.iter().enumerate() {
+            if let Leaf::HalfSpace { step, half_space, .. } = *leaf {
+                let robot = self.members[0].robot;
+                let (key, flipped) = self.direction_key(robot, step - first, half_space.direction);
+                let offset = if flipped { -half_space.offset } else { half_space.offset };
+                self.tighten(key, !flipped, offset, at);
+            }
+        }
+        self.apply();
+        match self.decide(constraints, self.length + 1) {
+            Verdict::Infeasible(conflict) => Some(*conflict),
+            Verdict::Feasible | Verdict::Undecided => None,
+        }
     }
 
     /// Decides a candidate's constraints on this cluster, with the loop back to `loop_start`.
@@ -398,7 +450,12 @@ impl<'a> Program<'a> {
             });
         }
         let lasso = Lasso { length: self.length, back: loop_start };
-        Conflict::new(Proof { terms: proof, lasso }, &self.members)
+        let proof = Proof { terms: proof, lasso };
+        if self.starts.is_empty() {
+            Conflict::new(proof, &self.members)
+        } else {
+            Conflict::free(proof, &self.members)
+        }
     }
 
     /// The unknowns of each member, with 0 for inputs outside the cluster, after a feasible check.
@@ -406,13 +463,35 @@ impl<'a> Program<'a> {
         let values = self.simplex.columns();
         let step = |at: usize, t: usize| {
             let system = self.members[at].system;
-            let entry =
-                |u: usize| self.columns[at][u].map_or(0.0, |c| values[t * self.stride + c] * system.units[u]);
+            let first = self.width() + t * self.stride;
+            let entry = |u: usize| self.columns[at][u].map_or(0.0, |c| values[first + c] * system.units[u]);
             DVector::from_iterator(system.m, (0..system.m).map(entry))
         };
         let steps = |at: usize| (0..=self.length).map(|t| step(at, t)).collect();
         (0..self.members.len()).map(|at| (self.members[at].robot, steps(at))).collect()
     }
+}
+
+/// The columns of a free start, and how the start fades.
+fn start_columns(
+    members: &[Member<'_>],
+    nodes: &[Node],
+    length: usize,
+) -> (Vec<Option<usize>>, Vec<DMatrix<f64>>) {
+    let (Some(member), Some(node)) = (members.first(), nodes.first()) else { return (vec![], vec![]) };
+    let system = member.system;
+    let states = &system.blocks[node.block].states;
+    let starts = (0..system.n).map(|s| states.iter().position(|x| *x == s)).collect();
+    let mut powers = vec![DMatrix::identity(system.n, system.n)];
+    for t in 0..=length {
+        powers.push(&system.closed * &powers[t]);
+    }
+    (starts, powers)
+}
+
+/// The extent of an interval, 1 when it has none.
+fn extent((lo, hi): (f64, f64)) -> f64 {
+    if (hi - lo).is_finite() && hi > lo { hi - lo } else { 1.0 }
 }
 
 fn bounded((lo, hi): (f64, f64)) -> bool {
