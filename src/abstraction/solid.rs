@@ -75,6 +75,7 @@ pub(super) fn of_problem(problem: &Problem, directions: &mut Directions, gap: f6
             let mut solid = solid(Owner::Blocker(id), piece, shape, directions);
             if blocker.kind.blocks_links() {
                 add_tangents(&mut solid, &bases, directions, gap);
+                add_ball_tangents(&mut solid, &bases, directions, gap);
             }
             add_oblique(&mut solid, problem.dimension, directions);
             solids.push(solid);
@@ -166,6 +167,33 @@ fn add_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directio
                     solid.add_face(Stage::Tangents, directions.intern(&direction));
                 }
             }
+        }
+    }
+}
+
+/// Adds the two tangents from each base to a Euclidean ball in the plane.
+///
+/// The directions that have the base below the ball by half a gap are those within some angle of the
+/// way to its centre; both ends of that range are found by bisection.
+fn add_ball_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directions, gap: f64) {
+    let Some(ball) = solid.ball.clone() else { return };
+    for base in bases.iter().filter(|b| b.len() == 2) {
+        let middle = (ball.center[1] - base[1]).atan2(ball.center[0] - base[0]);
+        let direction = |turn: f64| [(middle + turn).cos(), (middle + turn).sin()];
+        let clear = |turn: f64| solid.level(&direction(turn)) - dot(&direction(turn), base) >= 0.5 * gap;
+        if !clear(0.0) {
+            continue;
+        }
+        let tangents = [1.0, -1.0].map(|sense| {
+            let (mut inside, mut outside) = (0.0, sense * std::f64::consts::FRAC_PI_2);
+            for _ in 0..60 {
+                let turn = 0.5 * (inside + outside);
+                if clear(turn) { inside = turn } else { outside = turn }
+            }
+            direction(inside)
+        });
+        for tangent in tangents {
+            solid.add_face(Stage::Tangents, directions.intern(&tangent));
         }
     }
 }
