@@ -133,7 +133,7 @@ fn planned(path: &Path, bytes: Vec<u8>) -> Outcome {
     assert_eq!(read, *plan, "plan.json does not say all of the plan");
     let report = verify::verify(&mission.problem, &read);
     assert!(report.holds(), "{report}");
-    let picture = back::svg::draw(&mission.problem, &read).contents;
+    let picture = back::svg::draw(&mission.problem, &read, &back::svg::Options::default()).contents;
     assert!(picture.starts_with("<svg") && picture.ends_with("</svg>\n"));
     // Several loops may be as short: which one is found is the search's business.
     let text = format!("length {}, shortest: {shortest}", plan.length);

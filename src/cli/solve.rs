@@ -140,7 +140,7 @@ fn answer(
 
 /// The files of a plan, the plan itself last: where it is, all is.
 fn artifacts(mission: &driver::Mission, plan: &Plan) -> Vec<Artifact> {
-    let picture = svg::draw(&mission.problem, plan);
+    let picture = svg::draw(&mission.problem, plan, &svg::Options::default());
     vec![picture, Artifact { name: "plan.json".into(), contents: plan::json::write(plan) }]
 }
 

@@ -5,6 +5,7 @@
 //! seen from above.
 
 mod canvas;
+mod cells;
 mod legend;
 mod links;
 mod shapes;
@@ -18,12 +19,22 @@ use crate::ir::Problem;
 use crate::plan::Plan;
 use canvas::{Canvas, escape};
 
+pub use cells::Cell;
+
 /// The file's name in the output directory.
 pub const NAME: &str = "plan.svg";
 
+/// What a picture shows besides the plan.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options<'a> {
+    /// The cells of a partition of the workspace, drawn as thin outlines under everything else.
+    pub cells: &'a [Cell],
+}
+
 /// Draws a plan of a problem.
-pub fn draw(problem: &Problem, plan: &Plan) -> Artifact {
+pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
     let mut canvas = Canvas::new(&problem.workspace, legend::height(problem));
+    cells::draw(&mut canvas, options.cells);
     shapes::draw(&mut canvas, problem);
     links::draw(&mut canvas, problem, plan);
     ways::draw(&mut canvas, problem, plan);

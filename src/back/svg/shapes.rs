@@ -124,7 +124,7 @@ fn half_outline<'a>(points: impl Iterator<Item = &'a Pixel>) -> Vec<Pixel> {
 }
 
 /// A closed path through points.
-fn closed(points: &[Pixel]) -> String {
+pub fn closed(points: &[Pixel]) -> String {
     let at: Vec<String> = points.iter().map(|p| format!("{} {}", px(p.0), px(p.1))).collect();
     format!("M{}Z", at.join("L"))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::draw;
+use super::{Options, draw};
 use crate::entity::EntityId;
 use crate::exact::{Rational, RationalMatrix};
 use crate::geometry::{HalfSpace, Polytope};
@@ -150,12 +150,12 @@ fn plan() -> Plan {
 
 #[test]
 fn the_picture_of_a_small_plan() {
-    insta::assert_snapshot!(draw(&problem("small"), &plan()).contents);
+    insta::assert_snapshot!(draw(&problem("small"), &plan(), &Options::default()).contents);
 }
 
 #[test]
 fn no_text_of_the_mission_becomes_markup() {
-    let text = draw(&problem("</title><script>x</script>\u{1b}"), &plan()).contents;
+    let text = draw(&problem("</title><script>x</script>\u{1b}"), &plan(), &Options::default()).contents;
     assert!(!text.contains("<script") && !text.contains('\u{1b}'));
     assert!(text.contains("&lt;goal&gt; &amp; co"));
     assert_eq!(text.matches("<title>").count(), text.matches("</title>").count());
@@ -163,7 +163,7 @@ fn no_text_of_the_mission_becomes_markup() {
 
 #[test]
 fn tube_boxes_stand_off_centre_and_to_scale() {
-    let text = draw(&problem("small"), &plan()).contents;
+    let text = draw(&problem("small"), &plan(), &Options::default()).contents;
     // 760 pixels for 12 m; R1's first box is 0.4 m × 0.6 m around (1.1, 1).
     let scale = 760.0 / 12.0;
     let (x, y) = (52.0 + 0.9 * scale, 64.0 + (8.0 - 1.3) * scale);
@@ -174,7 +174,7 @@ fn tube_boxes_stand_off_centre_and_to_scale() {
 
 #[test]
 fn the_last_steps_links_are_drawn() {
-    let text = draw(&problem("small"), &plan()).contents;
+    let text = draw(&problem("small"), &plan(), &Options::default()).contents;
     // From R2's last position to the base.
     let scale = 760.0 / 12.0;
     let pixel = |x: f64, y: f64| format!("{:.2} {:.2}", 52.0 + x * scale, 64.0 + (8.0 - y) * scale);
@@ -189,5 +189,16 @@ fn a_plan_that_does_not_fit_its_problem_is_still_drawn() {
     odd.robots[0].z[1].clear();
     odd.robots[1].dynamics = "Other".into();
     odd.tubes[0].d[0].clear();
-    assert!(draw(&problem("odd"), &odd).contents.ends_with("</svg>\n"));
+    assert!(draw(&problem("odd"), &odd, &Options::default()).contents.ends_with("</svg>\n"));
+}
+
+#[test]
+fn cells_lie_under_everything_else() {
+    let cells = [vec![[0.0, 0.0], [6.0, 0.0], [6.0, 8.0]]];
+    let text = draw(&problem("small"), &plan(), &Options { cells: &cells }).contents;
+    let scale = 760.0 / 12.0;
+    let corner = |x: f64, y: f64| format!("{:.2} {:.2}", 52.0 + x * scale, 64.0 + (8.0 - y) * scale);
+    let outline = format!("M{}L{}L{}Z", corner(0.0, 0.0), corner(6.0, 0.0), corner(6.0, 8.0));
+    let at = |part: &str| text.find(part).expect(part);
+    assert!(at(&outline) < at(r#"class="region""#));
 }
