@@ -8,6 +8,7 @@
 //! Everything here is in doubles: a plan is proved elsewhere, so what matters is that the offsets
 //! lie on the safe side by far more than rounding.
 
+mod bounds;
 mod clearance;
 mod directions;
 mod error_set;
@@ -17,6 +18,7 @@ mod separation;
 mod solid;
 mod start;
 
+pub use bounds::{Bounds, MixedRow};
 pub use clearance::{Body, Plane};
 pub use directions::{Direction, DirectionId, Directions};
 pub use error_set::ErrorSet;

@@ -7,15 +7,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::abstraction::{Abstraction, HalfSpace};
+use crate::abstraction::{Abstraction, Bounds, HalfSpace, MixedRow};
 use crate::exact::RationalMatrix;
 use crate::ir::{Model, ModelId, Problem};
 use crate::tube::Tubes;
 
 use super::interval::Interval;
-
-/// How far the bounds of states and inputs are moved inwards, as a share of their extent.
-const BACKOFF: f64 = 1e-7;
 
 /// Responses below this share of the largest one are over.
 const FADED: f64 = 1e-14;
@@ -27,15 +24,6 @@ pub struct Block {
     pub states: Vec<usize>,
     /// The inputs, rising.
     pub inputs: Vec<usize>,
-}
-
-/// A general half-space over (z, v).
-#[derive(Clone, Debug)]
-pub struct MixedRow {
-    /// n + m coefficients.
-    pub normal: Vec<f64>,
-    /// The offset, tightened by the tube.
-    pub offset: f64,
 }
 
 /// The nominal system z⁺ = A z + B v + drift with its tightened bounds.
@@ -87,8 +75,8 @@ impl System {
         let mean = model.mean();
         let drift: Vec<_> = model.c.iter().zip(&mean).map(|(c, w)| c + w).collect();
         let (a, b) = (floats(&model.a), floats(&model.b));
-        let (state_bounds, input_bounds, mixed) = bounds(model, id, tubes, abstraction);
-        let walls = abstraction.workspace[id].iter().copied().filter(|w| !is_axis(abstraction, w)).collect();
+        let Bounds { states: state_bounds, inputs: input_bounds, mixed, walls } =
+            abstraction.bounds(problem, id, &tubes[id]);
         let blocks = blocks(problem, model);
         let gain = gain(&a, &b, &blocks);
         let closed = &a + &b * &gain;
@@ -130,64 +118,12 @@ impl System {
     }
 }
 
-fn is_axis(abstraction: &Abstraction, half_space: &HalfSpace) -> bool {
-    let vector = &abstraction.directions[half_space.direction].vector;
-    vector.iter().filter(|x| **x != 0.0).count() == 1
-}
-
 fn floats(matrix: &RationalMatrix) -> DMatrix<f64> {
     matrix.map(|x| x.to_f64())
 }
 
 fn intervals(matrix: &RationalMatrix) -> Vec<Vec<Interval>> {
     matrix.row_iter().map(|row| row.iter().map(Interval::around).collect()).collect()
-}
-
-type Bounds = (Vec<(f64, f64)>, Vec<(f64, f64)>, Vec<MixedRow>);
-
-/// 𝒳 ⊖ Ω (with 𝒲's axis-aligned facets) and 𝒰 ⊖ μ(Ω), moved inwards by the back-off.
-fn bounds(model: &Model, id: ModelId, tubes: &Tubes, abstraction: &Abstraction) -> Bounds {
-    let tube = &tubes[id];
-    let (n, m) = (model.n(), model.m());
-    let share = BACKOFF * abstraction.gap / (1e-6 * abstraction.size);
-    let unit = |i: usize, k: usize, sign: f64| -> Vec<f64> {
-        (0..k).map(|j| if i == j { sign } else { 0.0 }).collect()
-    };
-    let mut states = vec![(f64::NEG_INFINITY, f64::INFINITY); n];
-    for (s, bound) in model.state_bounds.iter().enumerate() {
-        if let Some(bound) = bound {
-            let (lo, hi) = (bound.lo.to_f64(), bound.hi.to_f64());
-            let inset = share * (hi - lo);
-            states[s] = (
-                lo + tube.support_up(&unit(s, n, -1.0)) + inset,
-                hi - tube.support_up(&unit(s, n, 1.0)) - inset,
-            );
-        }
-    }
-    for wall in abstraction.workspace[id].iter().filter(|w| is_axis(abstraction, w)) {
-        let vector = &abstraction.directions[wall.direction].vector;
-        let axis = vector.iter().position(|x| *x != 0.0).unwrap_or(0);
-        let (lo, hi) = &mut states[model.position[axis]];
-        if vector[axis] > 0.0 {
-            *hi = hi.min(wall.offset);
-        } else {
-            *lo = lo.max(-wall.offset);
-        }
-    }
-    let input = |(u, bound): (usize, &crate::ir::Interval)| {
-        let (lo, hi) = (bound.lo.to_f64(), bound.hi.to_f64());
-        let inset = share * (hi - lo);
-        let (down, up) = (tube.input_support_up(&unit(u, m, -1.0)), tube.input_support_up(&unit(u, m, 1.0)));
-        (lo + down + inset, hi - up - inset)
-    };
-    let inputs = model.input_bounds.iter().enumerate().map(input).collect();
-    let mixed = model.mixed_bounds.iter().map(|row| {
-        let normal: Vec<f64> = row.normal.iter().map(|x| x.to_f64()).collect();
-        let size = normal.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-        let inset = share * (row.offset.to_f64().abs() + size);
-        MixedRow { offset: row.offset.to_f64() - tube.joint_support_up(&normal) - inset, normal }
-    });
-    (states, inputs, mixed.collect())
 }
 
 /// The finest partition in which no state depends on another block's states or inputs.
