@@ -7,6 +7,8 @@
 
 use std::collections::HashMap;
 
+use rustsat::OutOfMemory;
+use rustsat::encodings::CollectClauses;
 use rustsat::instances::{BasicVarManager, Cnf, ManageVars};
 use rustsat::types::{Clause, Lit};
 
@@ -101,6 +103,15 @@ impl Circuit {
         &mut self.gates[lit.vidx()]
     }
 
+    /// The leaves with their literals, by rising variable.
+    pub fn leaves(&self) -> impl Iterator<Item = (Lit, Leaf)> + '_ {
+        let leaf = |(index, gate): (usize, &Gate)| match gate {
+            Gate::Leaf(leaf) => Some((Lit::positive(index as u32), *leaf)),
+            _ => None,
+        };
+        self.gates.iter().enumerate().filter_map(leaf)
+    }
+
     /// The number of variables.
     pub fn variables(&self) -> usize {
         self.variables.n_used() as usize
@@ -141,9 +152,12 @@ impl Circuit {
         }
     }
 
-    /// Takes the clauses written since the last call.
-    pub fn take_clauses(&mut self) -> Cnf {
-        std::mem::take(&mut self.pending)
+    /// Hands the clauses written since the last call to a solver or a file.
+    ///
+    /// # Errors
+    /// When the collector's memory runs out.
+    pub fn write_clauses(&mut self, collector: &mut impl CollectClauses) -> Result<(), OutOfMemory> {
+        collector.extend_clauses(std::mem::take(&mut self.pending))
     }
 
     /// The conjunction.

@@ -6,18 +6,23 @@
 
 mod circuit;
 mod compare;
+mod convex;
 mod justify;
 mod leaf;
 mod links;
 mod temporal;
+mod whole;
 
 pub use circuit::Bit;
+pub use convex::{Block, Convex, Relation, Row, Variable};
 pub use leaf::{Anywhere, Face, Leaf, Reach};
 pub use links::Link;
+pub use whole::{Instance, Meaning, TooLarge};
 
 use std::collections::{HashMap, HashSet};
 
-use rustsat::instances::Cnf;
+use rustsat::OutOfMemory;
+use rustsat::encodings::CollectClauses;
 use rustsat::types::Lit;
 
 use crate::abstraction::{Abstraction, HalfSpace, Owner, Passage, SolidId, Stage};
@@ -78,6 +83,8 @@ pub struct Encoder<'a> {
     problem: &'a Problem,
     abstraction: &'a Abstraction,
     reach: Box<dyn Reach + 'a>,
+    /// Whether everything gets its whole meaning at once.
+    eager: bool,
     circuit: Circuit,
     half_spaces: HalfSpaces,
     temporal: Temporal,
@@ -110,6 +117,7 @@ impl<'a> Encoder<'a> {
             problem,
             abstraction,
             reach,
+            eager: false,
             half_spaces: HalfSpaces::new(problem),
             temporal: Temporal::new(problem),
             circuit,
@@ -234,15 +242,17 @@ impl<'a> Encoder<'a> {
         bit
     }
 
-    /// The disjunction over a stage's directions and whatever later stages bring.
+    /// The disjunction over a stage's directions and whatever later stages bring; over those of all
+    /// stages when eager.
     fn clear_from(&mut self, stage: Stage, solid: SolidId, ends: &[End]) -> Bit {
-        let faces = &self.abstraction.solids[solid].faces;
+        let (faces, eager) = (&self.abstraction.solids[solid].faces, self.eager);
         let mut sides = Vec::new();
-        for &(_, direction) in faces.iter().filter(|(s, _)| *s == stage) {
+        for &(_, direction) in faces.iter().filter(|(s, _)| eager || *s == stage) {
             let rows: Vec<Bit> = ends.iter().map(|end| self.below(*end, solid, direction)).collect();
             sides.push(self.circuit.and(rows));
         }
-        if let Some(later) = faces.iter().map(|(s, _)| *s).filter(|s| *s > stage).min() {
+        let later = faces.iter().map(|(s, _)| *s).filter(|s| !eager && *s > stage).min();
+        if let Some(later) = later {
             sides.push(self.defer(Deferred::Clear(later, solid, ends.to_vec())));
         }
         self.circuit.or(sides)
@@ -386,9 +396,12 @@ impl<'a> Encoder<'a> {
         self.circuit.clause(&clause);
     }
 
-    /// The clauses written since the last call.
-    pub fn take_clauses(&mut self) -> Cnf {
-        self.circuit.take_clauses()
+    /// Hands the clauses written since the last call to a solver or a file.
+    ///
+    /// # Errors
+    /// When the collector's memory runs out.
+    pub fn write_clauses(&mut self, collector: &mut impl CollectClauses) -> Result<(), OutOfMemory> {
+        self.circuit.write_clauses(collector)
     }
 
     /// The literal 'this position is the last one'.

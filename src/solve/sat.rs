@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use rustsat::instances::Cnf;
 use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
 use rustsat::types::{Assignment, Lit, TernaryVal, Var};
 use rustsat_batsat::BasicSolver;
 
 use super::Watch;
+use crate::encode::Encoder;
 
 /// The answer of a query.
 #[derive(Clone, Debug)]
@@ -49,9 +49,9 @@ impl Sat {
         Sat { solver, calls: 0 }
     }
 
-    /// Adds clauses. False when memory runs out.
-    pub fn add(&mut self, clauses: Cnf) -> bool {
-        clauses.into_iter().all(|clause| self.solver.add_clause(clause).is_ok())
+    /// Adds the encoder's new clauses. False when memory runs out.
+    pub fn read(&mut self, encoder: &mut Encoder<'_>) -> bool {
+        encoder.write_clauses(&mut self.solver).is_ok()
     }
 
     /// Looks for a model in which all assumptions are true.

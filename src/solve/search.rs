@@ -170,7 +170,7 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         let start = self.search.now();
         let mut assumptions = vec![self.encoder.last(self.length)];
         assumptions.extend(self.closed.iter().map(|s| !self.encoder.switch(*s)));
-        let answer = if self.sat.add(self.encoder.take_clauses()) {
+        let answer = if self.sat.read(self.encoder) {
             self.sat.query(&assumptions)
         } else {
             Answer::Interrupted
