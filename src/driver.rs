@@ -9,6 +9,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::abstraction::{self, Abstraction};
+use crate::back::{self, Artifact, Emit};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::ir::{self, Problem, Spans, Violation};
@@ -87,6 +88,15 @@ pub fn prepare(problem: Problem, spans: Spans, diagnostics: &mut Diagnostics) ->
     let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
     abstraction::inspect(&problem, &spans, &tubes, diagnostics)?;
     Ok(Mission { problem, spans, tubes })
+}
+
+/// Writes a mission in one of the back ends' formats, for plans of one length or, without it, for what
+/// the format is for: all lengths of the horizon, or the first.
+pub fn compile(mission: &Mission, emit: Emit, length: Option<usize>) -> Vec<Artifact> {
+    match (emit, length) {
+        // The IR says the whole mission, whatever is to be planned of it.
+        (Emit::Ir, _) => vec![back::ir::write(&mission.problem)],
+    }
 }
 
 /// How a search for a plan that checks ended.

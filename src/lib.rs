@@ -32,7 +32,7 @@
 //! [`driver`] is this chain as code. [`cli`] is the command line around it.
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
 //! places in it), [`quantity`] (dimensions and units), [`geometry`] (polytopes, zonotopes) and
-//! [`diag`] (one diagnostic for all phases).
+//! [`json`] (strict reading, readable writing) and [`diag`] (one diagnostic for all phases).
 //!
 //! # Invariants
 //!
@@ -62,6 +62,7 @@ pub mod entity;
 pub mod exact;
 pub mod geometry;
 pub mod ir;
+pub mod json;
 pub mod lower;
 pub mod plan;
 pub mod quantity;

@@ -108,6 +108,15 @@ fn every_command_ends_with_its_status() {
         (&["solve", REACH, "-o", other, "--timeout", "0"], 4),
         (&["solve", REACH, "-o", "Cargo.toml"], 1),
         (&["solve", REACH, "-o", "Cargo.toml/below"], 1),
+        (&["compile", REACH], 1),
+        (&["compile", REACH, "-o", other, "--emit", "brainwave"], 1),
+        (&["compile", REACH, "-o", other, "--emit", ""], 1),
+        (&["compile", REACH, "-o", other, "--length", "0"], 1),
+        (&["compile", REACH, "-o", "Cargo.toml"], 1),
+        (&["compile", "no/such/file.dosm", "-o", other], 1),
+        (&["compile", WRONG, "-o", other], 2),
+        (&["compile", "tests/missions/err/tube_weak_inputs.dosm", "-o", other], 2),
+        (&["compile", REACH, "-o", other, "--timeout", "0"], 4),
         (&["verify", plan, REACH], 0),
         (&["verify", plan, REACH, "--horizon", "1..1"], 0),
         (&["verify", plan, "tests/missions/solve/until.dosm"], 5),
@@ -212,6 +221,31 @@ fn json_has_the_promised_shape() {
 }
 
 #[test]
+fn compile_writes_what_is_asked_for() {
+    let dir = temporary();
+    let out = dir.path().join("deep/out");
+    let output = run(&["compile", REACH, "-o", path(&out), "--emit", "ir,ir", "--json"]);
+    assert_eq!(status(&output), 0, "{output:?}");
+    let file = out.join("reach.ir.json");
+    assert_eq!(json(&output), serde_json::json!({"status": "done", "files": [path(&file)]}));
+    let document: Value =
+        serde_json::from_str(&fs::read_to_string(&file).expect("it was written")).expect("JSON");
+    assert_eq!((&document["format"], &document["version"]), (&"dosm-ir".into(), &1.into()));
+    assert_eq!(fs::read_dir(&out).expect("it is there").count(), 1);
+
+    let text = fs::read(root().join(REACH)).expect("the mission");
+    let output = run_with_input(&["compile", "-", "-o", path(&out), "--horizon", "3..4"], &text);
+    assert_eq!(status(&output), 0, "{output:?}");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("mission.ir.json"), "{said}");
+    let document = fs::read_to_string(out.join("mission.ir.json")).expect("it was written");
+    assert!(document.contains("\"horizon\": {\"from\": 3, \"to\": 4}"), "{document}");
+
+    let output = run(&["compile", REACH, "-o", path(&out), "--timeout", "0", "--json"]);
+    assert_eq!(json(&output)["status"], "unknown");
+}
+
+#[test]
 fn check_lists_diagnostics_with_their_places() {
     let output = run(&["check", "--json", REACH, WRONG]);
     let value = json(&output);
@@ -269,19 +303,6 @@ fn a_new_mission_can_be_planned_and_is_never_overwritten() {
     }
     let names = fs::read_dir(dir.path()).expect("it is there").count();
     assert_eq!(names, 2, "relay_2.dosm and out");
-}
-
-#[test]
-fn the_same_mission_gives_the_same_bytes() {
-    let plans: Vec<Vec<u8>> = [&[][..], &["--threads", "1"], &["--threads", "4"]]
-        .into_iter()
-        .map(|more| {
-            let (_keep, out, _) = solved("examples/patrol.dosm", more);
-            let files = ["plan.json", "plan.svg"].map(|f| fs::read(out.join(f)).expect("it was written"));
-            files.concat()
-        })
-        .collect();
-    assert!(plans.windows(2).all(|p| p[0] == p[1]));
 }
 
 /// Standard output and error hold no character that moves a cursor, hides or turns text round.

@@ -22,9 +22,13 @@ datatest_stable::harness! {
     { test = ir, root = "tests/missions/solve", pattern = r"\.dosm$" },
     { test = refused, root = "tests/missions/err", pattern = r"\.dosm$" },
     { test = accepted, root = "tests/missions/ok", pattern = r"\.dosm$" },
+    { test = written, root = "tests/missions/ok", pattern = r"\.dosm$" },
     { test = accepted, root = "tests/missions/solve", pattern = r"\.dosm$" },
+    { test = written, root = "tests/missions/solve", pattern = r"\.dosm$" },
     { test = accepted, root = "tests/missions/unsat", pattern = r"\.dosm$" },
+    { test = written, root = "tests/missions/unsat", pattern = r"\.dosm$" },
     { test = accepted, root = "examples", pattern = r"\.dosm$" },
+    { test = written, root = "examples", pattern = r"\.dosm$" },
     { test = planned, root = "tests/missions/solve", pattern = r"\.dosm$" },
     { test = planned, root = "examples", pattern = r"\.dosm$" },
     { test = not_planned, root = "tests/missions/unsat", pattern = r"\.dosm$" },
@@ -90,6 +94,16 @@ fn tree(path: &Path, bytes: Vec<u8>) -> Outcome {
 fn ir(path: &Path, bytes: Vec<u8>) -> Outcome {
     let (mission, _, _) = load(path, &bytes)?;
     snapshot(path, "ir", &mission.problem.to_string());
+    Ok(())
+}
+
+/// That the IR's file says all of it, always in the same way.
+fn written(path: &Path, bytes: Vec<u8>) -> Outcome {
+    let (mission, _, _) = load(path, &bytes)?;
+    let file = back::ir::write(&mission.problem);
+    let read = back::ir::read(&file.contents).map_err(|e| e.to_string())?;
+    assert_eq!(read, mission.problem, "the file does not say all of the IR");
+    assert_eq!(back::ir::write(&read), file, "one problem, one text");
     Ok(())
 }
 

@@ -1,6 +1,26 @@
 //! Back ends: one file a format, problem and plan in, [`Artifact`]s out.
 
+pub mod ir;
 pub mod svg;
+
+/// What a mission can be compiled to, without a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Emit {
+    /// `NAME.ir.json`
+    Ir,
+}
+
+impl Emit {
+    /// All there are, in the order in which they are written.
+    pub const ALL: &[Emit] = &[Emit::Ir];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Emit::Ir => "ir",
+        }
+    }
+}
 
 /// A file to be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -9,4 +29,36 @@ pub struct Artifact {
     pub name: String,
     /// Its text.
     pub contents: String,
+}
+
+/// A mission's file name with an extension: its name, with `_` for what is no good in file names.
+pub fn file_name(mission: &str, extension: &str) -> String {
+    let safe = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };
+    let stem: String = mission.chars().take(LONGEST_STEM).map(safe).collect();
+    // A leading `-` would be read as an option by many commands.
+    let stem = if stem.starts_with('-') { format!("_{stem}") } else { stem };
+    format!("{}.{extension}", if stem.is_empty() { "mission" } else { &stem })
+}
+
+/// The longest part of a mission's name in a file's name; identifiers are shorter.
+const LONGEST_STEM: usize = 100;
+
+#[cfg(test)]
+mod tests {
+    use super::file_name;
+
+    #[test]
+    fn file_names_are_harmless() {
+        assert_eq!(file_name("relay_2", "ir.json"), "relay_2.ir.json");
+        for (name, expected) in [
+            ("", "mission.x"),
+            ("../a b", "___a_b.x"),
+            ("-rf", "_-rf.x"),
+            ("a.b", "a_b.x"),
+            ("Ω\u{1b}", "__.x"),
+        ] {
+            assert_eq!(file_name(name, "x"), expected);
+        }
+        assert!(file_name(&"x".repeat(5000), "x").len() < 255);
+    }
 }

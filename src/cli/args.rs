@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 
 use super::time::parse_time;
+use crate::back::Emit;
 
 /// The whole command line.
 #[derive(Parser, Debug)]
@@ -82,6 +84,26 @@ Exit status: 0 no errors, 1 a file can't be read, 2 errors.")]
         #[arg(required = true, value_name = "MISSION")]
         missions: Vec<PathBuf>,
     },
+    /// Write a mission in other tools' formats
+    #[command(
+        after_help = "DIR gets NAME.ir.json (`ir`: the mission with exact numbers, names resolved, families \
+written out). All files are written whole, or none is.\n\n\
+Exit status: 0 written, 1 usage or files, 2 errors in the mission, 4 time ran out first.\n\n\
+Example:  dosmc compile examples/relay.dosm -o out --emit ir"
+    )]
+    Compile {
+        /// The mission; `-` is standard input
+        mission: PathBuf,
+        /// Where to write the files; created where needed
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+        /// What to write, separated by commas; everything when left out
+        #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = emit_parser())]
+        emit: Vec<Emit>,
+        /// For plans of this length only, whatever the horizon says
+        #[arg(long, value_name = "L", value_parser = parse_length)]
+        length: Option<usize>,
+    },
     /// Look for the shortest plan, check it exactly, and write it down
     #[command(
         after_help = "DIR gets plan.json, the plan with a witness for everything that it claims, and plan.svg, its \
@@ -127,6 +149,12 @@ fn parse_set(text: &str) -> Result<(String, String), String> {
     Ok((name.into(), value.into()))
 }
 
+/// One of the back ends' names.
+fn emit_parser() -> impl TypedValueParser<Value = Emit> {
+    let named = |name: String| Emit::ALL.iter().copied().find(|e| e.name() == name).ok_or("no such format");
+    PossibleValuesParser::new(Emit::ALL.iter().map(|e| e.name())).try_map(named)
+}
+
 /// The longest plan that may be asked for (language.md §2).
 const LONGEST: usize = 100_000;
 
@@ -139,6 +167,12 @@ fn parse_horizon(text: &str) -> Result<(usize, usize), String> {
         return Err(format!("it must have 1 ≤ A ≤ B ≤ {LONGEST}"));
     }
     Ok((from, to))
+}
+
+/// 1 ≤ L
+fn parse_length(text: &str) -> Result<usize, String> {
+    let length = text.trim().parse().ok().filter(|l| (1..=LONGEST).contains(l));
+    length.ok_or_else(|| format!("it must be a number of steps from 1 to {LONGEST}"))
 }
 
 #[cfg(test)]

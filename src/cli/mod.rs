@@ -7,6 +7,7 @@
 
 mod args;
 mod check;
+mod compile;
 mod files;
 mod mission;
 mod new;
@@ -69,6 +70,10 @@ fn run(args: Args) -> Status {
     }
     match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, &output),
+        Command::Compile { mission, output: directory, emit, length } => {
+            let wanted = compile::Wanted { emit, length };
+            compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
+        }
         Command::Solve { mission, output: directory } => {
             solve::solve(&mission, &directory, &overrides, args.common.timeout, &output)
         }

@@ -5,10 +5,9 @@
 //! wrong length) is refused with the place where it stands. Unknown keys are ignored.
 
 mod read;
-mod value;
 mod write;
 
-pub use read::{ReadError, read};
+pub use read::read;
 pub use write::write;
 
 /// The value of the key `format`.

@@ -1,44 +1,10 @@
 //! From `plan.json` to a plan, strictly.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-use super::value::Value;
 use super::{FORMAT, VERSION};
+use crate::json::{ReadError, Value};
 use crate::plan::{Apart, Label, Link, Mission, Objective, Plan, RobotPlan, Separator, Tube};
-
-/// Why a text is no plan, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
-    /// The place as a JSON path, `$.robots[1].z[3][0]`.
-    pub path: String,
-    /// What is wrong there.
-    pub message: String,
-}
-
-impl ReadError {
-    pub(super) fn new(message: String) -> ReadError {
-        ReadError { path: String::new(), message }
-    }
-    pub(super) fn in_key(mut self, key: &str) -> ReadError {
-        let plain = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-        let step = if plain { format!(".{key}") } else { format!("[{key:?}]") };
-        self.path.insert_str(0, &step);
-        self
-    }
-    pub(super) fn in_item(mut self, index: usize) -> ReadError {
-        self.path.insert_str(0, &format!("[{index}]"));
-        self
-    }
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path, self.message)
-    }
-}
-
-impl std::error::Error for ReadError {}
 
 type Result<T> = std::result::Result<T, ReadError>;
 
@@ -48,11 +14,7 @@ type Result<T> = std::result::Result<T, ReadError>;
 /// The first place where the text is no JSON, no plan of this format and version, or has a list of
 /// the wrong length.
 pub fn read(text: &str) -> Result<Plan> {
-    let plan = Value::parse(text).and_then(|value| plan(&value));
-    plan.map_err(|mut e| {
-        e.path.insert(0, '$');
-        e
-    })
+    Value::parse(text).and_then(|value| plan(&value)).map_err(ReadError::from_root)
 }
 
 fn plan(value: &Value) -> Result<Plan> {
@@ -98,7 +60,7 @@ fn tube(value: &Value) -> Result<Tube> {
     let half_width = field(value, "disturbance", |v| field(v, "half_width", |v| sized(v, n, number)))?;
     let d = field(value, "D", |v| list(v, |v| sized(v, n, |v| sized(v, n, number))))?;
     if d.is_empty() {
-        return Err(ReadError::new("expected at least one matrix".into()).in_key("D"));
+        return Err(ReadError::new("expected at least one matrix").in_key("D"));
     }
     let m = field(value, "M", |v| gains(v, d.len(), n))?;
     Ok(Tube {
@@ -114,7 +76,7 @@ fn tube(value: &Value) -> Result<Tube> {
 /// K matrices of one height and n columns.
 fn gains(value: &Value, k: usize, n: usize) -> Result<Vec<Vec<Vec<f64>>>> {
     if matches!(value, Value::Object(_)) {
-        return Err(ReadError::new("gains for each mode are not supported by this version".into()));
+        return Err(ReadError::new("gains for each mode are not supported by this version"));
     }
     let m: Vec<Vec<Vec<f64>>> = sized(value, k, |v| list(v, |v| sized(v, n, number)))?;
     match m.iter().position(|matrix| matrix.len() != m[0].len()) {
@@ -126,7 +88,7 @@ fn gains(value: &Value, k: usize, n: usize) -> Result<Vec<Vec<Vec<f64>>>> {
 fn robot(value: &Value, length: usize, sizes: &BTreeMap<String, (usize, usize)>) -> Result<RobotPlan> {
     if get(value, "mode")?.is_some() {
         let message = "modes of switching models are not supported by this version";
-        return Err(ReadError::new(message.into()).in_key("mode"));
+        return Err(ReadError::new(message).in_key("mode"));
     }
     let dynamics = field(value, "dynamics", string)?;
     let Some(&(n, m)) = sizes.get(&dynamics) else {

@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{FORMAT, VERSION};
+use crate::json::lay_out;
 use crate::plan::{Apart, Label, Link, Objective, Plan, RobotPlan, Separator, Tube};
-
-/// How wide a line may be before its array or object is broken.
-const WIDTH: usize = 120;
 
 /// Writes a plan; the same plan gives the same text.
 ///
@@ -34,10 +32,7 @@ pub fn write(plan: &Plan) -> String {
         ("separation", list(&plan.separation, |pairs| list(pairs, apart))),
         ("objective", optional(&plan.objective, objective)),
     ]);
-    let mut out = String::new();
-    tree.broken(0, &mut out);
-    out.push('\n');
-    out
+    lay_out(&tree)
 }
 
 fn tube(tube: &Tube) -> Json {
@@ -95,9 +90,9 @@ fn link(link: &Link) -> Json {
 
 fn apart(apart: &Apart) -> Json {
     object([
-        ("pair", Json::List(vec![text(&apart.pair.0), text(&apart.pair.1)])),
+        ("pair", array([text(&apart.pair.0), text(&apart.pair.1)])),
         ("axis", natural(apart.axis)),
-        ("sign", Json::Leaf(apart.sign.to_string())),
+        ("sign", apart.sign.to_string()),
     ])
 }
 
@@ -106,114 +101,24 @@ fn objective(objective: &Objective) -> Json {
         ("kind", text(&objective.kind)),
         ("value", number(&objective.value)),
         ("bound", number(&objective.bound)),
-        ("proved", Json::Leaf(objective.proved.to_string())),
+        ("proved", objective.proved.to_string()),
     ])
 }
 
-/// What is to be laid out.
-enum Json {
-    /// A number, a string or a constant, as it is written.
-    Leaf(String),
-    /// An array.
-    List(Vec<Json>),
-    /// An object, keys as they are written.
-    Object(Vec<(String, Json)>),
-}
-
-impl Json {
-    /// The text on one line, if that takes `room` characters at most.
-    fn inline(&self, room: usize) -> Option<String> {
-        let mut out = String::new();
-        self.append_inline(room, &mut out)?;
-        Some(out)
-    }
-
-    fn append_inline(&self, room: usize, out: &mut String) -> Option<()> {
-        match self {
-            Json::Leaf(leaf) => out.push_str(leaf),
-            Json::List(items) => {
-                out.push('[');
-                for (i, item) in items.iter().enumerate() {
-                    out.push_str(if i > 0 { ", " } else { "" });
-                    item.append_inline(room, out)?;
-                }
-                out.push(']');
-            }
-            Json::Object(fields) => {
-                out.push('{');
-                for (i, (key, value)) in fields.iter().enumerate() {
-                    out.push_str(if i > 0 { ", " } else { "" });
-                    out.push_str(key);
-                    out.push_str(": ");
-                    value.append_inline(room, out)?;
-                }
-                out.push('}');
-            }
-        }
-        (out.len() <= room).then_some(())
-    }
-
-    /// Appends the text, on one line where it fits.
-    fn laid_out(&self, indent: usize, out: &mut String) {
-        match self.inline(WIDTH.saturating_sub(indent)) {
-            Some(line) => out.push_str(&line),
-            None => self.broken(indent, out),
-        }
-    }
-
-    /// Appends the text with one line or more for each member.
-    fn broken(&self, indent: usize, out: &mut String) {
-        let inner = indent + 2;
-        match self {
-            Json::Leaf(leaf) => out.push_str(leaf),
-            Json::List(items) => {
-                out.push('[');
-                for (i, item) in items.iter().enumerate() {
-                    start_line(i, inner, out);
-                    item.laid_out(inner, out);
-                }
-                end_lines(indent, out, ']');
-            }
-            Json::Object(fields) => {
-                out.push('{');
-                for (i, (key, value)) in fields.iter().enumerate() {
-                    start_line(i, inner, out);
-                    out.push_str(key);
-                    out.push_str(": ");
-                    value.laid_out(inner, out);
-                }
-                end_lines(indent, out, '}');
-            }
-        }
-    }
-}
-
-fn start_line(index: usize, indent: usize, out: &mut String) {
-    out.push_str(if index > 0 { ",\n" } else { "\n" });
-    out.extend(std::iter::repeat_n(' ', indent));
-}
-
-fn end_lines(indent: usize, out: &mut String, bracket: char) {
-    out.push('\n');
-    out.extend(std::iter::repeat_n(' ', indent));
-    out.push(bracket);
-}
+/// JSON without white space between its parts.
+type Json = String;
 
 fn text(value: &str) -> Json {
-    Json::Leaf(quoted(value))
-}
-
-fn quoted(value: &str) -> String {
     serde_json::Value::from(value).to_string()
 }
 
 fn natural(value: usize) -> Json {
-    Json::Leaf(value.to_string())
+    value.to_string()
 }
 
 fn number(value: &f64) -> Json {
     // Rust's own shortest form round-trips and, for finite values, is a number of JSON.
-    Json::Leaf(if value.is_finite() { format!("{value:?}") } else { "null".into() })
+    if value.is_finite() { format!("{value:?}") } else { "null".into() }
 }
 
 fn row(values: &[f64]) -> Json {
@@ -221,17 +126,26 @@ fn row(values: &[f64]) -> Json {
 }
 
 fn list<T>(items: &[T], write: impl Fn(&T) -> Json) -> Json {
-    Json::List(items.iter().map(write).collect())
+    array(items.iter().map(write))
+}
+
+fn array(items: impl IntoIterator<Item = Json>) -> Json {
+    format!("[{}]", items.into_iter().collect::<Vec<_>>().join(","))
 }
 
 fn optional<T>(item: &Option<T>, write: impl Fn(&T) -> Json) -> Json {
-    item.as_ref().map_or(Json::Leaf("null".into()), write)
+    item.as_ref().map_or("null".into(), write)
 }
 
 fn map<T>(items: &BTreeMap<String, T>, write: impl Fn(&T) -> Json) -> Json {
-    Json::Object(items.iter().map(|(k, v)| (quoted(k), write(v))).collect())
+    fields(items.iter().map(|(key, value)| (key.as_str(), write(value))))
 }
 
-fn object<const N: usize>(fields: [(&str, Json); N]) -> Json {
-    Json::Object(fields.into_iter().map(|(k, v)| (quoted(k), v)).collect())
+fn object<const N: usize>(members: [(&str, Json); N]) -> Json {
+    fields(members)
+}
+
+fn fields<'a>(members: impl IntoIterator<Item = (&'a str, Json)>) -> Json {
+    let members = members.into_iter().map(|(key, value)| format!("{}:{value}", text(key)));
+    format!("{{{}}}", members.collect::<Vec<_>>().join(","))
 }

@@ -9,7 +9,7 @@ use super::ReadError;
 
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub enum Value {
     /// `null`
     Null,
     /// `true`, `false`
@@ -27,15 +27,19 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// Reads a text; nesting deeper than 128 and numbers beyond the doubles are refused.
-    pub(super) fn parse(text: &str) -> Result<Value, ReadError> {
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// The first place where the text is no JSON, nested deeper than 128, holds a number beyond the
+    /// doubles or a key twice.
+    pub fn parse(text: &str) -> Result<Value, ReadError> {
         let value: Value = serde_json::from_str(text).map_err(|e| ReadError::new(e.to_string()))?;
         value.refuse_duplicates()?;
         Ok(value)
     }
 
     /// What kind of value it is, for messages.
-    pub(super) fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> &'static str {
         match self {
             Value::Null => "null",
             Value::Bool(_) => "a truth value",
@@ -57,7 +61,7 @@ impl Value {
                 let mut seen = BTreeSet::new();
                 for (key, value) in fields {
                     if !seen.insert(key) {
-                        return Err(ReadError::new("the key occurs twice".into()).in_key(key));
+                        return Err(ReadError::new("the key occurs twice").in_key(key));
                     }
                     value.refuse_duplicates().map_err(|e| e.in_key(key))?;
                 }
