@@ -119,6 +119,7 @@ pub enum Answer {
 
 /// What 'no plan' holds for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Scope {
     /// By model: the share of the inputs that the feedback was allowed.
     pub beta: BTreeMap<String, f64>,

@@ -3,6 +3,8 @@
 //! A snapshot stands beside its mission, `NAME.STAGE.snap`. An empty directory fails: the harness
 //! wants at least one mission for each pattern.
 
+mod schema;
+
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -104,6 +106,7 @@ fn written(path: &Path, bytes: Vec<u8>) -> Outcome {
     let read = back::ir::read(&file.contents).map_err(|e| e.to_string())?;
     assert_eq!(read, mission.problem, "the file does not say all of the IR");
     assert_eq!(back::ir::write(&read), file, "one problem, one text");
+    assert_schema("ir", &file.contents);
     Ok(())
 }
 
@@ -143,7 +146,9 @@ fn accepted(path: &Path, bytes: Vec<u8>) -> Outcome {
 fn planned(path: &Path, bytes: Vec<u8>) -> Outcome {
     let (mission, _, _) = load(path, &bytes)?;
     let Answer::Plan { plan, shortest } = solve(&mission) else { return Err("no plan was found".into()) };
-    let read = plan::json::read(&plan::json::write(&plan)).map_err(|e| e.to_string())?;
+    let text = plan::json::write(&plan);
+    let read = plan::json::read(&text).map_err(|e| e.to_string())?;
+    assert_schema("plan", &text);
     assert_eq!(read, *plan, "plan.json does not say all of the plan");
     let report = verify::verify(&mission.problem, &read);
     assert!(report.holds(), "{report}");
@@ -153,6 +158,12 @@ fn planned(path: &Path, bytes: Vec<u8>) -> Outcome {
     let text = format!("length {}, shortest: {shortest}", plan.length);
     snapshot(path, "plan", &text);
     Ok(())
+}
+
+/// That a file is as its schema says.
+#[track_caller]
+fn assert_schema(name: &str, text: &str) {
+    schema::Closed::of(name).assert_accepts(&serde_json::from_str(text).expect("JSON"));
 }
 
 /// That there is none.

@@ -13,20 +13,29 @@ use crate::source::SourceFile;
 
 /// What `check --json` prints.
 #[derive(Serialize)]
-struct JsonCheck {
-    /// `ok` or `error`.
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonCheck {
+    /// `error` when a file is wrong or can't be read.
+    #[cfg_attr(test, schemars(extend("enum" = ["ok", "error"])))]
     status: &'static str,
+    /// How many errors there are in all files.
     errors: usize,
+    /// How many warnings there are in all files.
     warnings: usize,
+    /// The files, in the order of the command line.
     files: Vec<JsonFile>,
+    /// Everything found in all files.
     diagnostics: Vec<JsonDiagnostic>,
 }
 
 /// What came of one file.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct JsonFile {
+    /// Its name as given; `<stdin>` for standard input.
     file: String,
-    /// `ok` or `error`.
+    /// `error` when it is wrong or can't be read.
+    #[cfg_attr(test, schemars(extend("enum" = ["ok", "error"])))]
     status: &'static str,
 }
 

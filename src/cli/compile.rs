@@ -17,10 +17,12 @@ use crate::solve::Progress;
 
 /// What `compile --json` prints.
 #[derive(Serialize)]
-struct JsonCompile {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonCompile {
     /// `done`, or `unknown` when time ran out before anything was written.
+    #[cfg_attr(test, schemars(extend("enum" = ["done", "unknown"])))]
     status: &'static str,
-    /// The files written.
+    /// The paths of the files written.
     files: Vec<String>,
 }
 

@@ -105,3 +105,6 @@ fn answer_without_command(error: &clap::Error) -> Status {
 fn usage(message: impl Into<String>) -> Diagnostic {
     output::plain_error("dosm::cli::usage", message)
 }
+
+#[cfg(test)]
+mod schemas;

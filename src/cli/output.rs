@@ -25,8 +25,10 @@ pub struct Output {
 
 /// What `--json` prints when a command stops with an error.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonFailure {
     /// Always `error`.
+    #[cfg_attr(test, schemars(extend("const" = "error")))]
     pub status: &'static str,
     /// What was wrong.
     pub diagnostics: Vec<JsonDiagnostic>,

@@ -16,21 +16,31 @@ use crate::diag::printable;
 use crate::driver::{self, Answer, Overrides, Scope, Solved};
 use crate::plan::{self, Plan};
 use crate::solve::{Progress, Reason, Watch};
+use crate::verify::JsonReport;
 
 /// What `solve --json` prints.
 #[derive(Serialize)]
-struct JsonSolve {
-    /// `plan`, `no_plan`, `unknown` or `error`.
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonSolve {
+    /// `plan`, `no_plan`, `unknown`, or `error` for a plan that was found but does not check.
+    #[cfg_attr(test, schemars(extend("enum" = ["plan", "no_plan", "unknown", "error"])))]
     status: &'static str,
+    /// The plan's length L, `null` without a plan.
     length: Option<usize>,
+    /// The step that comes again after the last one, `null` without a plan.
     loop_start: Option<usize>,
+    /// Whether no shorter plan exists, for its tube, rejection share and directions.
     shortest: bool,
+    /// The time since the start, in seconds.
     time_s: f64,
+    /// Counts and times.
     stats: JsonStats,
+    /// For `no_plan`: what it holds for.
     #[serde(skip_serializing_if = "Option::is_none")]
     scope: Option<Scope>,
     /// For `unknown`: `timeout`, `interrupt`, `numerics`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("enum" = ["timeout", "interrupt", "numerics"])))]
     reason: Option<&'static str>,
     /// For `unknown`: the length that was being tried.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -40,7 +50,7 @@ struct JsonSolve {
     files: Vec<String>,
     /// For a plan that was found but refused by the exact check: what it refused.
     #[serde(skip_serializing_if = "Option::is_none")]
-    report: Option<serde_json::Value>,
+    report: Option<JsonReport>,
 }
 
 impl JsonSolve {

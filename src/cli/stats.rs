@@ -11,6 +11,7 @@ use crate::solve::Progress;
 
 /// `stats` in `solve --json`; times in seconds.
 #[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonStats {
     half_spaces: usize,
     /// Always 0: cells belong to the paper's encoding.

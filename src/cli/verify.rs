@@ -10,18 +10,21 @@ use super::{Status, files, mission};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Overrides};
 use crate::plan::{self, Plan};
-use crate::verify::Report;
+use crate::verify::{JsonReport, Report};
 
 /// What `verify --json` prints.
 #[derive(Serialize)]
-struct JsonVerify {
-    /// `checked` or `refused`.
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonVerify {
+    /// `checked` when the plan holds.
+    #[cfg_attr(test, schemars(extend("enum" = ["checked", "refused"])))]
     status: &'static str,
     /// Whether the plan was made from the same source text.
     same_text: bool,
+    /// The time that the check took, in seconds.
     time_s: f64,
     /// Each kind of check, and the first failures.
-    report: serde_json::Value,
+    report: JsonReport,
 }
 
 /// Checks a plan against a mission.

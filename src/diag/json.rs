@@ -8,10 +8,12 @@ use crate::source::SourceFile;
 
 /// A diagnostic as `--json` prints it.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonDiagnostic {
     /// The stable code.
     pub code: &'static str,
     /// `error` or `warning`.
+    #[cfg_attr(test, schemars(extend("enum" = ["error", "warning"])))]
     pub severity: &'static str,
     /// The message.
     pub message: String,
@@ -25,6 +27,7 @@ pub struct JsonDiagnostic {
 
 /// A place: lines and columns from 1, columns in characters, ends one past the last.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonLabel {
     /// What is said about the place.
     pub text: String,

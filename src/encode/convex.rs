@@ -239,8 +239,7 @@ impl<'a> Builder<'a> {
         let mut rows = Vec::new();
         for (robot, entry) in self.problem.robots.iter() {
             for s in 0..self.problem.models[entry.model].n() {
-                let terms =
-                    vec![(self.state(robot, back, s), -1.0), (self.state(robot, length + 1, s), 1.0)];
+                let terms = vec![(self.state(robot, back, s), -1.0), (self.state(robot, length + 1, s), 1.0)];
                 rows.push(row(terms, Relation::Equal, 0.0));
             }
         }

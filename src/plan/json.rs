@@ -16,4 +16,6 @@ pub const FORMAT: &str = "dosm-plan";
 pub const VERSION: u64 = 1;
 
 #[cfg(test)]
+pub(crate) mod schema;
+#[cfg(test)]
 mod tests;

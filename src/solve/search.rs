@@ -170,11 +170,8 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         let start = self.search.now();
         let mut assumptions = vec![self.encoder.last(self.length)];
         assumptions.extend(self.closed.iter().map(|s| !self.encoder.switch(*s)));
-        let answer = if self.sat.read(self.encoder) {
-            self.sat.query(&assumptions)
-        } else {
-            Answer::Interrupted
-        };
+        let answer =
+            if self.sat.read(self.encoder) { self.sat.query(&assumptions) } else { Answer::Interrupted };
         self.search.statistics.time_sat += self.search.now() - start;
         answer
     }

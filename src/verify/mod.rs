@@ -19,6 +19,7 @@ mod blockers;
 mod bounds;
 mod formulas;
 mod goals;
+mod json;
 mod labels;
 mod links;
 mod objective;
@@ -30,6 +31,7 @@ mod shape;
 mod tube;
 mod zonotope;
 
+pub use json::JsonReport;
 pub use report::{Check, Failure, Kind, Report};
 
 use crate::ir::Problem;

@@ -155,27 +155,6 @@ impl Report {
     pub fn check(&self, kind: Kind) -> Option<&Check> {
         self.checks.iter().find(|c| c.kind == kind)
     }
-
-    /// The report as one JSON object, for programs.
-    pub fn to_json(&self) -> serde_json::Value {
-        let check = |c: &Check| {
-            serde_json::json!({
-                "name": c.kind.name(), "holds": c.holds(), "count": c.count, "failed": c.failed, "margin": c.margin,
-            })
-        };
-        let failure = |f: &Failure| {
-            serde_json::json!({
-                "check": f.check.name(), "robot": f.place.robot, "subject": f.place.subject,
-                "step": f.place.step, "message": f.message,
-            })
-        };
-        serde_json::json!({
-            "holds": self.holds(),
-            "same_text": self.same_text,
-            "checks": self.checks.iter().map(check).collect::<Vec<_>>(),
-            "failures": self.failures.iter().map(failure).collect::<Vec<_>>(),
-        })
-    }
 }
 
 impl fmt::Display for Failure {

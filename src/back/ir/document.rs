@@ -13,7 +13,7 @@ use super::number::Number;
 /// written out. Entities are called by their place in their list, from 0. Every key is always there,
 /// `null` where there is nothing; readers ignore keys that they don't know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(title = "NAME.ir.json"))]
 pub struct Document {
     /// Always `dosm-ir`.
     #[cfg_attr(test, schemars(extend("const" = super::FORMAT)))]
@@ -68,6 +68,7 @@ pub struct Mission {
     /// Its documentation, empty when there is none.
     pub doc: String,
     /// SHA-256 of the source text, in lower-case hexadecimal.
+    #[cfg_attr(test, schemars(regex(pattern = "^[0-9a-f]{64}$")))]
     pub sha256: String,
     /// The `--set` assignments as written on the command line, by parameter name.
     pub set: BTreeMap<String, String>,
@@ -100,8 +101,13 @@ pub struct HalfSpace {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Piece {
-    /// A bounded polytope.
-    Polytope(Polytope),
+    /// A bounded polytope, as the workspace is one.
+    Polytope {
+        /// The vertices, one number a coordinate, in metres.
+        vertices: Vec<Vec<Number>>,
+        /// The facets.
+        facets: Vec<HalfSpace>,
+    },
     /// The Euclidean ball of every centre in a box: box(center ± spread) ⊕ ball(radius).
     Ball {
         /// The middle of the box of centres.
@@ -324,16 +330,6 @@ pub enum Objective {
     Length,
 }
 
-/// A robot in a region.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Atom {
-    /// The robot's place in `robots`.
-    pub robot: usize,
-    /// The region's place in `regions`.
-    pub region: usize,
-}
-
 /// A temporal formula over the runs of all robots; operands are called by their place in `formulas`,
 /// before the formula itself. A window [m, n] counts steps, `null` stands for [0, ∞).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -345,9 +341,19 @@ pub enum Formula {
     /// Never holds.
     False,
     /// The robot is certainly in the region.
-    In(Atom),
+    In {
+        /// The robot's place in `robots`.
+        robot: usize,
+        /// The region's place in `regions`.
+        region: usize,
+    },
     /// The robot is certainly out of the region.
-    Out(Atom),
+    Out {
+        /// The robot's place in `robots`.
+        robot: usize,
+        /// The region's place in `regions`.
+        region: usize,
+    },
     /// The sum of the coefficients of the robots that are in their regions compares with the bound,
     /// whatever the uncertain ones are.
     Compare {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::document::{
-    Atom, Base, Blocker, BlockerKind, Connectivity, Document, Enclosure, Formula, HalfSpace, Interval, Model,
-    Norm, Objective, Piece, Polytope, Range, Region, Relation, Robot, Term,
+    Base, Blocker, BlockerKind, Connectivity, Document, Enclosure, Formula, HalfSpace, Interval, Model, Norm,
+    Objective, Piece, Polytope, Range, Region, Relation, Robot, Term,
 };
 use super::number::Number;
 use super::{FORMAT, VERSION};
@@ -153,7 +153,9 @@ fn same(given: &geometry::Polytope, hull: &geometry::Polytope) -> bool {
 
 fn pieces(pieces: Vec<Piece>) -> Result<ir::Shape> {
     let piece = |piece| match piece {
-        Piece::Polytope(inner) => polytope(inner).map(ir::Piece::Polytope),
+        Piece::Polytope { vertices, facets } => {
+            polytope(Polytope { vertices, facets }).map(ir::Piece::Polytope)
+        }
         Piece::Ball { center, spread, radius } => {
             Ok(ir::Piece::Ball { center: vector(center), spread: vector(spread), radius: radius.0 })
         }
@@ -273,18 +275,18 @@ fn formula(formula: Formula, before: usize, robots: usize, regions: usize) -> Re
     let operand = |index: usize| id::<ir::FormulaId>(index, before);
     let operands = |list: Vec<usize>| all(list, operand, "operands");
     let window = |window: Option<[u32; 2]>| window.map(|[from, to]| (from, to));
-    let atom = |atom: Atom| -> Result<ir::Atom> {
+    let atom = |robot: usize, region: usize| -> Result<ir::Atom> {
         Ok(ir::Atom {
-            robot: id(atom.robot, robots).map_err(|e| e.in_key("robot"))?,
-            region: id(atom.region, regions).map_err(|e| e.in_key("region"))?,
+            robot: id(robot, robots).map_err(|e| e.in_key("robot"))?,
+            region: id(region, regions).map_err(|e| e.in_key("region"))?,
         })
     };
-    let term = |Term { coefficient, robot, region }| Ok((atom(Atom { robot, region })?, coefficient));
+    let term = |Term { coefficient, robot, region }| Ok((atom(robot, region)?, coefficient));
     Ok(match formula {
         Formula::True => ir::Formula::True,
         Formula::False => ir::Formula::False,
-        Formula::In(inner) => ir::Formula::In(atom(inner)?),
-        Formula::Out(inner) => ir::Formula::Out(atom(inner)?),
+        Formula::In { robot, region } => ir::Formula::In(atom(robot, region)?),
+        Formula::Out { robot, region } => ir::Formula::Out(atom(robot, region)?),
         Formula::Compare { terms, relation: how, bound } => {
             let terms = all(terms, term, "terms")?;
             ir::Formula::Compare(ir::Comparison { terms, relation: relation(how), bound })

@@ -1,9 +1,8 @@
 //! From a problem to what the file says.
 
 use super::document::{
-    Atom, Base, Blocker, BlockerKind, Connectivity, Document, Enclosure, Formula, Goal, HalfSpace, Horizon,
-    Input, Interval, Mission, Model, Norm, Objective, Piece, Polytope, Range, Region, Relation, Robot, State,
-    Term,
+    Base, Blocker, BlockerKind, Connectivity, Document, Enclosure, Formula, Goal, HalfSpace, Horizon, Input,
+    Interval, Mission, Model, Norm, Objective, Piece, Polytope, Range, Region, Relation, Robot, State, Term,
 };
 use super::number::Number;
 use super::{FORMAT, VERSION};
@@ -69,7 +68,10 @@ fn pieces(shape: &ir::Shape) -> Vec<Piece> {
 
 fn piece(piece: &ir::Piece) -> Piece {
     match piece {
-        ir::Piece::Polytope(inner) => Piece::Polytope(polytope(inner)),
+        ir::Piece::Polytope(inner) => {
+            let Polytope { vertices, facets } = polytope(inner);
+            Piece::Polytope { vertices, facets }
+        }
         ir::Piece::Ball { center, spread, radius } => {
             Piece::Ball { center: numbers(center), spread: numbers(spread), radius: number(radius) }
         }
@@ -170,18 +172,14 @@ fn objective(objective: ir::Objective) -> Objective {
     }
 }
 
-fn atom(atom: &ir::Atom) -> Atom {
-    Atom { robot: atom.robot.index(), region: atom.region.index() }
-}
-
 fn formula(formula: &ir::Formula) -> Formula {
     let all = |list: &[ir::FormulaId]| list.iter().map(|f| f.index()).collect();
     let window = |window: Option<(u32, u32)>| window.map(|(from, to)| [from, to]);
     match formula {
         ir::Formula::True => Formula::True,
         ir::Formula::False => Formula::False,
-        ir::Formula::In(inner) => Formula::In(atom(inner)),
-        ir::Formula::Out(inner) => Formula::Out(atom(inner)),
+        ir::Formula::In(atom) => Formula::In { robot: atom.robot.index(), region: atom.region.index() },
+        ir::Formula::Out(atom) => Formula::Out { robot: atom.robot.index(), region: atom.region.index() },
         ir::Formula::Compare(comparison) => compare(comparison),
         ir::Formula::And(operands) => Formula::And { operands: all(operands) },
         ir::Formula::Or(operands) => Formula::Or { operands: all(operands) },
