@@ -3,12 +3,13 @@
 //! Nothing here reads a file, looks at the clock or prints.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::abstraction::{self, Abstraction};
+use crate::abstraction::{self, Abstraction, Partition};
 use crate::back::{self, Artifact, Emit};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
@@ -21,6 +22,8 @@ use crate::syntax;
 use crate::tube::{self, Tubes};
 use crate::verify::{self, Report};
 
+pub use crate::abstraction::TooFine;
+
 /// What the command line says about a mission besides its text.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
@@ -28,6 +31,17 @@ pub struct Overrides {
     pub set: Vec<(String, String)>,
     /// The lengths to try instead of the mission's.
     pub horizon: Option<(usize, usize)>,
+}
+
+/// What the Boolean part of a search speaks of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Encoding {
+    /// Half-spaces, added where a candidate needs them.
+    #[default]
+    HalfSpaces,
+    /// The cells of a partition, as the paper has it.
+    Paper,
 }
 
 /// A mission without errors, ready to be planned.
@@ -127,6 +141,8 @@ pub struct Scope {
     pub half_widths: BTreeMap<String, Vec<f64>>,
     /// How many directions separating planes could have.
     pub directions: usize,
+    /// How many cells robots could be in; 0 where nothing was cut into cells.
+    pub cells: usize,
 }
 
 /// An answer with the costs of finding it.
@@ -138,6 +154,10 @@ pub struct Solved {
     pub statistics: Statistics,
     /// Time spent in the exact check.
     pub time_verify: Duration,
+    /// What was searched.
+    pub encoding: Encoding,
+    /// How many cells the partition has; 0 without one.
+    pub cells: usize,
 }
 
 /// How much wider the margins are at each attempt, when the exact check refuses a plan.
@@ -145,12 +165,47 @@ const BACKOFFS: [f64; 3] = [1.0, 10.0, 100.0];
 
 /// Looks for the shortest plan, and gives none out that the exact check has not accepted.
 pub fn solve(mission: &Mission, watch: &Arc<dyn Watch>) -> Solved {
+    let search = |backoff| Ok(Abstraction::new(&mission.problem, &mission.tubes, backoff));
+    let Ok(solved): Result<Solved, Infallible> = search_with(mission, watch, Encoding::HalfSpaces, &search);
+    solved
+}
+
+/// As [`solve`], with a choice of what the Boolean part speaks of.
+///
+/// # Errors
+/// [`TooFine`] when the paper's partition would have too many cells.
+pub fn solve_with(mission: &Mission, encoding: Encoding, watch: &Arc<dyn Watch>) -> Result<Solved, TooFine> {
+    let Mission { problem, tubes, .. } = mission;
+    match encoding {
+        Encoding::HalfSpaces => Ok(solve(mission, watch)),
+        Encoding::Paper => search_with(mission, watch, encoding, &|backoff| {
+            Abstraction::new(problem, tubes, backoff).with_cells(problem)
+        }),
+    }
+}
+
+fn search_with<E>(
+    mission: &Mission,
+    watch: &Arc<dyn Watch>,
+    encoding: Encoding,
+    abstract_: &dyn Fn(f64) -> Result<Abstraction, E>,
+) -> Result<Solved, E> {
     let mut refused = None;
-    let mut spent = Statistics::default();
-    let mut time_verify = Duration::ZERO;
+    let mut solved = Solved {
+        answer: Answer::Unknown(Reason::Numerics),
+        statistics: Statistics::default(),
+        time_verify: Duration::ZERO,
+        encoding,
+        cells: 0,
+    };
     for backoff in BACKOFFS {
-        let (attempt, statistics) = attempt(mission, watch, backoff, &mut time_verify);
-        spent = statistics;
+        let started = watch.now();
+        let abstraction = abstract_(backoff)?;
+        let time_abstraction = watch.now().saturating_sub(started);
+        solved.cells = cells(&abstraction);
+        let (attempt, statistics) = attempt(mission, watch, &abstraction, &mut solved.time_verify);
+        solved.statistics = statistics;
+        solved.statistics.time_geometry += time_abstraction;
         let answer = match attempt {
             Attempt::Refused(report) => {
                 refused = report.or(refused);
@@ -160,10 +215,12 @@ pub fn solve(mission: &Mission, watch: &Arc<dyn Watch>) -> Solved {
             Attempt::Answer(Answer::NoPlan(_)) if backoff > BACKOFFS[0] => break,
             Attempt::Answer(answer) => answer,
         };
-        return Solved { answer, statistics: spent, time_verify };
+        return Ok(Solved { answer, ..solved });
     }
-    let answer = refused.map_or(Answer::Unknown(Reason::Numerics), Answer::Refused);
-    Solved { answer, statistics: spent, time_verify }
+    if let Some(report) = refused {
+        solved.answer = Answer::Refused(report);
+    }
+    Ok(solved)
 }
 
 /// One search and what the exact check says of it.
@@ -176,22 +233,18 @@ enum Attempt {
 fn attempt(
     mission: &Mission,
     watch: &Arc<dyn Watch>,
-    backoff: f64,
+    abstraction: &Abstraction,
     time_verify: &mut Duration,
 ) -> (Attempt, Statistics) {
     let Mission { problem, tubes, .. } = mission;
-    let started = watch.now();
-    let abstraction = Abstraction::new(problem, tubes, backoff);
-    let time_abstraction = watch.now().saturating_sub(started);
     let options = solve::Options { horizon: problem.horizon, watch: Arc::clone(watch) };
-    let (outcome, mut statistics) = solve::solve(problem, tubes, &abstraction, &options);
-    statistics.time_geometry += time_abstraction;
+    let (outcome, statistics) = solve::solve(problem, tubes, abstraction, &options);
     let attempt = match outcome {
-        Outcome::NoPlan => Attempt::Answer(Answer::NoPlan(scope(mission, &abstraction))),
+        Outcome::NoPlan => Attempt::Answer(Answer::NoPlan(scope(mission, abstraction))),
         Outcome::Unknown(reason) => Attempt::Answer(Answer::Unknown(reason)),
         Outcome::Plan(nominal) => {
             let started = watch.now();
-            let attempt = proved(mission, &abstraction, &nominal);
+            let attempt = proved(mission, abstraction, &nominal);
             *time_verify += watch.now().saturating_sub(started);
             attempt
         }
@@ -220,7 +273,12 @@ fn scope(mission: &Mission, abstraction: &Abstraction) -> Scope {
             .map(|(m, t)| (m.name.clone(), m.position.iter().map(|&s| t.state_half_width(s)).collect()))
             .collect(),
         directions: abstraction.directions.len(),
+        cells: cells(abstraction),
     }
+}
+
+fn cells(abstraction: &Abstraction) -> usize {
+    abstraction.partition.as_ref().map_or(0, Partition::count)
 }
 
 /// Checks a plan against a problem, in exact arithmetic.

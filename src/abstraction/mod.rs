@@ -13,6 +13,7 @@ mod clearance;
 mod directions;
 mod error_set;
 mod narrow_region;
+mod partition;
 mod passage;
 mod separation;
 mod solid;
@@ -22,6 +23,7 @@ pub use bounds::{Bounds, MixedRow};
 pub use clearance::{Body, Plane};
 pub use directions::{Direction, DirectionId, Directions};
 pub use error_set::ErrorSet;
+pub use partition::{Cell, CellId, MOST_CELLS, Partition, Place, TooFine};
 pub use passage::Passage;
 pub use solid::{Owner, Solid, SolidId};
 pub use start::inspect;
@@ -87,6 +89,8 @@ pub struct Abstraction {
     pub solids: Table<SolidId, Solid>,
     /// The facets of 𝒲 as half-spaces for each model's nominal position.
     pub workspace: Table<ModelId, Vec<HalfSpace>>,
+    /// The partition into cells; `None` unless [asked for](Abstraction::with_cells).
+    pub partition: Option<Partition>,
     tubes: Table<ModelId, PositionTube>,
     supports: Table<ModelId, Vec<f64>>,
     ceilings: Table<ModelId, Vec<f64>>,
@@ -114,6 +118,7 @@ impl Abstraction {
             directions,
             solids,
             workspace: Table::new(),
+            partition: None,
             tubes: Table::new(),
             supports: Table::new(),
             ceilings: Table::new(),
@@ -123,6 +128,15 @@ impl Abstraction {
         };
         abstraction.add_models(problem, tubes, &corners, walls);
         abstraction
+    }
+
+    /// With the partition that the paper's encoding works on.
+    ///
+    /// # Errors
+    /// [`TooFine`] when there would be too many cells.
+    pub fn with_cells(mut self, problem: &Problem) -> Result<Abstraction, TooFine> {
+        self.partition = Some(Partition::new(problem, &self)?);
+        Ok(self)
     }
 
     fn add_models(&mut self, problem: &Problem, tubes: &Tubes, corners: &[Vec<f64>], walls: Vec<HalfSpace>) {
@@ -200,6 +214,20 @@ impl Abstraction {
         let outline = self.tubes[model].outline();
         let sums = vertices.iter().flat_map(|v| outline.iter().map(|c| [v[0] + c[0], v[1] + c[1]]));
         clearance::convex_hull(sums.collect())
+    }
+
+    /// The directions of a solid's own facets.
+    fn facets_of(&self, solid: SolidId) -> Vec<DirectionId> {
+        let faces = self.solids[solid].faces.iter();
+        faces.filter(|(stage, _)| *stage == Stage::Facets).map(|(_, direction)| *direction).collect()
+    }
+
+    /// Whether no link may cross a solid.
+    fn blocks_links(&self, problem: &Problem, solid: SolidId) -> bool {
+        match self.solids[solid].owner {
+            Owner::Blocker(id) => problem.blockers[id].kind.blocks_links(),
+            Owner::Region(_) => false,
+        }
     }
 
     /// The solids of one owner, piece by piece.

@@ -158,8 +158,8 @@ fn add_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directio
                 continue;
             }
             // The normal of the line from base to vertex, in both senses, turned so that the base
-            // lies half a gap below the line through the vertex.
-            let turn = 0.5 * gap / distance;
+            // lies a gap below the line through the vertex.
+            let turn = gap / distance;
             for sense in [1.0, -1.0] {
                 let normal = [turn * along[0] - sense * along[1], turn * along[1] + sense * along[0]];
                 let direction = normal.map(|x| x / distance);
@@ -173,14 +173,14 @@ fn add_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directio
 
 /// Adds the two tangents from each base to a Euclidean ball in the plane.
 ///
-/// The directions that have the base below the ball by half a gap are those within some angle of the
+/// The directions that have the base below the ball by a gap are those within some angle of the
 /// way to its centre; both ends of that range are found by bisection.
 fn add_ball_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directions, gap: f64) {
     let Some(ball) = solid.ball.clone() else { return };
     for base in bases.iter().filter(|b| b.len() == 2) {
         let middle = (ball.center[1] - base[1]).atan2(ball.center[0] - base[0]);
         let direction = |turn: f64| [(middle + turn).cos(), (middle + turn).sin()];
-        let clear = |turn: f64| solid.level(&direction(turn)) - dot(&direction(turn), base) >= 0.5 * gap;
+        let clear = |turn: f64| solid.level(&direction(turn)) - dot(&direction(turn), base) >= gap;
         if !clear(0.0) {
             continue;
         }

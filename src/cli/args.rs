@@ -73,6 +73,24 @@ pub enum Color {
     Never,
 }
 
+/// What the search speaks of.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// Half-spaces, added where they are needed: the fastest
+    HalfSpaces,
+    /// Cells of a partition, as in the paper; 'no plan' then holds for this partition only
+    Paper,
+}
+
+impl From<Encoding> for crate::driver::Encoding {
+    fn from(encoding: Encoding) -> Self {
+        match encoding {
+            Encoding::HalfSpaces => crate::driver::Encoding::HalfSpaces,
+            Encoding::Paper => crate::driver::Encoding::Paper,
+        }
+    }
+}
+
 /// The commands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
@@ -117,6 +135,9 @@ does not check.\n\nExample:  dosmc solve examples/paper/fig2-4.dosm -o out --set
         /// Where to write the plan; created where needed
         #[arg(short, long, value_name = "DIR")]
         output: PathBuf,
+        /// What the search speaks of: half-spaces, or the cells of a partition as in the paper
+        #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH", help_heading = "Search")]
+        encoding: Encoding,
     },
     /// Check a plan against its mission, in exact arithmetic, believing nothing
     #[command(

@@ -74,8 +74,9 @@ fn run(args: Args) -> Status {
             let wanted = compile::Wanted { emit, length };
             compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
         }
-        Command::Solve { mission, output: directory } => {
-            solve::solve(&mission, &directory, &overrides, args.common.timeout, &output)
+        Command::Solve { mission, output: directory, encoding } => {
+            let search = solve::Settings { timeout: args.common.timeout, encoding: encoding.into() };
+            solve::solve(&mission, &directory, &overrides, search, &output)
         }
         Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
         Command::New { name } => new::new(&name, &output),

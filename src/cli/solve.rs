@@ -13,7 +13,7 @@ use super::stats::JsonStats;
 use super::{Status, mission};
 use crate::back::{Artifact, svg};
 use crate::diag::printable;
-use crate::driver::{self, Answer, Overrides, Scope, Solved};
+use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
 use crate::plan::{self, Plan};
 use crate::solve::{Progress, Reason, Watch};
 use crate::verify::JsonReport;
@@ -71,12 +71,21 @@ impl JsonSolve {
     }
 }
 
+/// How to search.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// When to stop.
+    pub timeout: Option<Duration>,
+    /// What the search speaks of.
+    pub encoding: Encoding,
+}
+
 /// Plans a mission and writes the plan and its picture into a directory.
 pub fn solve(
     path: &Path,
     directory: &Path,
     overrides: &Overrides,
-    timeout: Option<Duration>,
+    settings: Settings,
     output: &Output,
 ) -> Status {
     let directory = match OutputDirectory::probe(directory) {
@@ -87,7 +96,7 @@ pub fn solve(
         Ok(source) => source,
         Err(status) => return status,
     };
-    let overseer = Overseer::start(timeout, !output.quiet, last_words(output.clone()));
+    let overseer = Overseer::start(settings.timeout, !output.quiet, last_words(output.clone()));
     let (loaded, time_tube) = match mission::load_or_fail(&source, overrides, output) {
         Ok(loaded) => loaded,
         Err(status) => {
@@ -96,8 +105,12 @@ pub fn solve(
         }
     };
     let watch: Arc<dyn Watch> = Arc::<Overseer>::clone(&overseer);
-    let solved = driver::solve(&loaded, &watch);
+    let solved = driver::solve_with(&loaded, settings.encoding, &watch);
     overseer.close();
+    let solved = match solved {
+        Ok(solved) => solved,
+        Err(too_fine) => return output.fail(super::usage(too_fine.to_string())),
+    };
     let stats = JsonStats::new(&loaded, &solved, time_tube);
     answer(solved, stats, &loaded, &directory, &overseer, output).unwrap_or_else(|status| status)
 }
@@ -120,7 +133,7 @@ fn answer(
             let artifacts = artifacts(mission, &plan);
             let files = directory.write(&artifacts).map_err(|problem| output.fail(problem))?;
             let files: Vec<String> = files.iter().map(|f| f.to_string_lossy().into_owned()).collect();
-            output.say(&found(&plan, shortest, &files))?;
+            output.say(&found(&plan, shortest, solved.encoding, &files))?;
             let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
             output.json(&JsonSolve { length, loop_start, shortest, files, ..json("plan") })?;
             Ok(Status::Done)
@@ -154,11 +167,11 @@ fn artifacts(mission: &driver::Mission, plan: &Plan) -> Vec<Artifact> {
     vec![picture, Artifact { name: "plan.json".into(), contents: plan::json::write(plan) }]
 }
 
-fn found(plan: &Plan, shortest: bool, files: &[String]) -> String {
-    let rank = if shortest {
-        "no shorter one exists for its tube and directions"
-    } else {
-        "a shorter one may exist"
+fn found(plan: &Plan, shortest: bool, encoding: Encoding, files: &[String]) -> String {
+    let rank = match (shortest, encoding) {
+        (true, Encoding::HalfSpaces) => "no shorter one exists for its tube and directions",
+        (true, Encoding::Paper) => "no shorter one exists for its tube and cells",
+        (false, _) => "a shorter one may exist",
     };
     let files = files.join("\n  ");
     format!("plan: {}; checked exactly; {rank}\n  {}", plan.summary(), printable(&files))
@@ -168,11 +181,14 @@ fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {
     let (from, to) = mission.problem.horizon;
     let widths: Vec<String> =
         scope.half_widths.iter().map(|(name, w)| format!("{name} ±({})", list(w))).collect();
+    let with = match scope.cells {
+        0 => format!("{} separating directions", scope.directions),
+        cells => format!("a partition into {cells} cells (try without `--encoding paper`)"),
+    };
     format!(
-        "no plan of any length in {from}..{to}\n  for tubes of {} (metres), rejection {}, and {} separating directions",
+        "no plan of any length in {from}..{to}\n  for tubes of {} (metres), rejection {}, and {with}",
         printable(&widths.join(", ")),
         list(&scope.beta.values().copied().collect::<Vec<_>>()),
-        scope.directions
     )
 }
 

@@ -6,15 +6,16 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::driver::{Mission, Solved};
+use crate::driver::{Encoding, Mission, Solved};
 use crate::solve::Progress;
 
 /// `stats` in `solve --json`; times in seconds.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonStats {
+    encoding: Encoding,
     half_spaces: usize,
-    /// Always 0: cells belong to the paper's encoding.
+    /// 0 without the paper's encoding.
     cells: usize,
     bool_vars: usize,
     bool_vars_connectivity: usize,
@@ -38,8 +39,9 @@ impl JsonStats {
     pub fn new(mission: &Mission, solved: &Solved, time_tube: Duration) -> JsonStats {
         let s = &solved.statistics;
         JsonStats {
+            encoding: solved.encoding,
             half_spaces: s.half_spaces,
-            cells: 0,
+            cells: solved.cells,
             bool_vars: s.bool_vars,
             bool_vars_connectivity: s.bool_vars_connectivity,
             bool_vars_connectivity_paper: papers_connectivity(mission) * (s.length + 1),
@@ -91,6 +93,9 @@ impl fmt::Display for JsonStats {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ms = |s: f64| format!("{:.2} ms", s * 1e3);
         writeln!(f, "half-spaces      {:>12}", self.half_spaces)?;
+        if self.encoding == Encoding::Paper {
+            writeln!(f, "cells            {:>12}", self.cells)?;
+        }
         let paper = self.bool_vars_connectivity_paper;
         writeln!(
             f,

@@ -144,6 +144,19 @@ impl Circuit {
         self.clause(&literals);
     }
 
+    /// Adds the clause `conditions → some bit`; the conditions are literals that must all be true.
+    pub fn imply_some(&mut self, conditions: &[Lit], bits: &[Bit]) {
+        let mut literals: Vec<Lit> = conditions.iter().map(|l| !*l).collect();
+        for bit in bits {
+            match bit {
+                Bit::True => return,
+                Bit::False => {}
+                Bit::Lit(lit) => literals.push(*lit),
+            }
+        }
+        self.clause(&literals);
+    }
+
     /// Requires a bit, and makes it a root of justification.
     pub fn require(&mut self, bit: Bit) {
         self.imply(&[], bit);

@@ -20,12 +20,12 @@ pub enum Link {
 /// Links start out unconditional; what blocks them is added as conjuncts when it matters.
 #[derive(Debug)]
 pub struct StepLinks {
-    robots: usize,
-    bases: usize,
+    pub(super) robots: usize,
+    pub(super) bases: usize,
     /// Row-major over pairs i < j.
-    pairs: Vec<Lit>,
+    pub(super) pairs: Vec<Lit>,
     /// By robot and base.
-    direct: Vec<Lit>,
+    pub(super) direct: Vec<Lit>,
     /// The variables that this step's communication took.
     pub variables: usize,
 }

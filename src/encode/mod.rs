@@ -10,6 +10,8 @@ mod convex;
 mod justify;
 mod leaf;
 mod links;
+mod paper;
+mod paper_links;
 mod temporal;
 mod whole;
 
@@ -31,6 +33,7 @@ use crate::ir::{BaseId, Comparison, ModelId, Problem, RegionId, RobotId};
 use circuit::{Circuit, Gate};
 use leaf::HalfSpaces;
 use links::StepLinks;
+use paper::CellVariables;
 use temporal::{Ask, Temporal};
 
 /// One end of what must be clear of a solid.
@@ -89,6 +92,8 @@ pub struct Encoder<'a> {
     half_spaces: HalfSpaces,
     temporal: Temporal,
     links: Vec<StepLinks>,
+    /// With the paper's encoding: the cells.
+    cells: Option<CellVariables<'a>>,
     /// By position: it is the last one.
     lasts: Vec<Lit>,
     /// By length: the loop goes back to position k.
@@ -122,6 +127,7 @@ impl<'a> Encoder<'a> {
             temporal: Temporal::new(problem),
             circuit,
             links: Vec::new(),
+            cells: abstraction.partition.as_ref().map(CellVariables::new),
             lasts: Vec::new(),
             loops: Vec::new(),
             switches,
@@ -149,6 +155,8 @@ impl<'a> Encoder<'a> {
         for &back in &loops {
             self.circuit.clause(&[!back, last]);
         }
+        self.extend_cells(length + 1);
+        self.close_cells(length, &loops);
         let mut some: Vec<Lit> = vec![!last];
         some.extend(&loops);
         self.circuit.clause(&some);
@@ -163,8 +171,12 @@ impl<'a> Encoder<'a> {
         if let Some(connectivity) = &self.problem.connectivity {
             let hops = connectivity.hops.map_or(usize::MAX, |h| h as usize);
             let (robots, bases) = (self.problem.robots.len(), self.problem.bases.len());
-            self.links.push(StepLinks::new(&mut self.circuit, robots, bases, hops));
+            let new = if self.cells.is_some() { StepLinks::paper } else { StepLinks::new };
+            self.links.push(new(&mut self.circuit, robots, bases, hops));
+            self.extend_cells(step);
+            self.extend_sight(step);
         }
+        self.extend_cells(step);
         let was_last = self.lasts.last().copied();
         self.lasts.push(last);
         let asks = self.temporal.asks();
@@ -192,6 +204,10 @@ impl<'a> Encoder<'a> {
     /// 'Certainly in' and 'certainly out'.
     fn atom(&mut self, robot: RobotId, region: RegionId, step: usize) -> (Bit, Bit) {
         if let Some(&bits) = self.atoms.get(&(robot, region, step)) {
+            return bits;
+        }
+        if let Some(bits) = self.cell_labels(robot, region, step) {
+            self.atoms.insert((robot, region, step), bits);
             return bits;
         }
         let model = self.problem.robots[robot].model;

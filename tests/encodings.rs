@@ -1,0 +1,100 @@
+//! Both encodings of the workspace on the same missions: half-spaces, and the paper's cells.
+//!
+//! Every plan that comes out was accepted by the exact check (`driver` gives out no other), so what
+//! is compared is what each of them finds and refutes.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use dosmc::diag::Diagnostics;
+use dosmc::driver::{self, Answer, Encoding, Mission, Overrides, Solved};
+use dosmc::solve::{Progress, Watch};
+use dosmc::source::SourceFile;
+
+struct Patience;
+
+impl Watch for Patience {
+    fn stop(&self) -> bool {
+        false
+    }
+    fn progress(&self, _: &Progress) {}
+    fn now(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+fn load(text: &str, set: &[(&str, &str)]) -> Mission {
+    let source = SourceFile::new("mission.dosm", text);
+    let set = set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
+    let overrides = Overrides { set, ..Overrides::default() };
+    driver::load(&source, &overrides, &mut Diagnostics::new()).expect("a mission without errors")
+}
+
+fn solve(mission: &Mission, encoding: Encoding) -> Solved {
+    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    driver::solve_with(mission, encoding, &watch).expect("few cells")
+}
+
+/// The length of the plan found, if there is one.
+fn length(solved: &Solved) -> Option<usize> {
+    match &solved.answer {
+        Answer::Plan { plan, shortest } => {
+            assert!(shortest);
+            Some(plan.length)
+        }
+        Answer::NoPlan(_) => None,
+        other => panic!("{other:?}"),
+    }
+}
+
+const TABLE: &str = include_str!("../examples/paper/table1-4.dosm");
+
+/// The paper's Table I counts C(N, 2)·(N − 1) variables a step for N robots and bases.
+#[test]
+fn connectivity_takes_as_many_variables_as_in_the_papers_table() {
+    let rows =
+        [("2", "1", 6), ("3", "1", 18), ("4", "1", 40), ("2", "2", 18), ("3", "2", 40), ("4", "2", 75)];
+    for (robots, bases, variables) in rows {
+        // One step is enough to count: its positions are 0 and 1.
+        let mut mission = load(TABLE, &[("robots", robots), ("bases", bases)]);
+        mission.problem.horizon = (1, 1);
+        let solved = solve(&mission, Encoding::Paper);
+        assert_eq!(solved.statistics.bool_vars_connectivity, 2 * variables, "{robots} robots, {bases} bases");
+        assert!(solved.cells > 0);
+    }
+}
+
+/// With two robots and one base the paper's plan is a step longer: no cells of its partition see
+/// past the corner that the diagonal half-spaces see past.
+#[test]
+fn both_encodings_plan_rows_of_table_one() {
+    for (robots, bases, lengths) in [("2", "1", (6, 7)), ("2", "2", (6, 6)), ("4", "1", (6, 6))] {
+        let mission = load(TABLE, &[("robots", robots), ("bases", bases)]);
+        let found =
+            (length(&solve(&mission, Encoding::HalfSpaces)), length(&solve(&mission, Encoding::Paper)));
+        assert_eq!(found, (Some(lengths.0), Some(lengths.1)), "{robots} robots, {bases} bases");
+    }
+}
+
+#[test]
+fn the_same_mission_gives_the_same_plan_twice() {
+    let mission = load(TABLE, &[]);
+    let plan = || match solve(&mission, Encoding::Paper).answer {
+        Answer::Plan { plan, .. } => dosmc::plan::json::write(&plan),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(plan(), plan());
+}
+
+#[test]
+fn without_a_plan_the_partition_is_part_of_the_scope() {
+    let mission = load(include_str!("missions/unsat/one_hop_short.dosm"), &[]);
+    match solve(&mission, Encoding::Paper).answer {
+        Answer::NoPlan(scope) => assert!(scope.cells > 1),
+        other => panic!("{other:?}"),
+    }
+    match solve(&mission, Encoding::HalfSpaces).answer {
+        Answer::NoPlan(scope) => assert_eq!(scope.cells, 0),
+        other => panic!("{other:?}"),
+    }
+}
