@@ -36,6 +36,7 @@ pub struct Overrides {
 /// What the Boolean part of a search speaks of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum Encoding {
     /// Half-spaces, added where a candidate needs them.
     #[default]
