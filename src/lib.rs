@@ -33,6 +33,7 @@
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
 //! places in it), [`quantity`] (dimensions and units), [`geometry`] (polytopes, zonotopes) and
 //! [`json`] (strict reading, readable writing) and [`diag`] (one diagnostic for all phases).
+//! [`explain`] holds a page for each diagnostic code.
 //!
 //! # Invariants
 //!
@@ -60,6 +61,7 @@ pub mod driver;
 pub mod encode;
 pub mod entity;
 pub mod exact;
+pub mod explain;
 pub mod geometry;
 pub mod ir;
 pub mod json;

@@ -14,13 +14,14 @@ const BASE: [&str; 7] = ["diag", "entity", "entity_id", "exact", "json", "quanti
 ///
 /// `verify` never sees what tube, abstraction, encode or solve computed; no back end sees the
 /// syntax tree; nothing sees the command line.
-const MAY_NAME: [(&str, &[&str]); 21] = [
+const MAY_NAME: [(&str, &[&str]); 22] = [
     ("entity", &[]),
     ("exact", &[]),
     ("source", &[]),
     ("json", &[]),
     ("quantity", &["exact"]),
     ("diag", &["source"]),
+    ("explain", &[]),
     ("geometry", &[]),
     ("ir", &["geometry"]),
     ("syntax", &[]),
@@ -52,11 +53,11 @@ const MAY_NAME: [(&str, &[&str]); 21] = [
             "back",
         ],
     ),
-    ("cli", &["driver", "syntax", "ir", "tube", "solve", "plan", "verify", "back"]),
+    ("cli", &["driver", "explain", "syntax", "ir", "tube", "solve", "plan", "verify", "back"]),
 ];
 
 /// Names of crates and of the standard library with the only places (path prefixes) for them.
-const BORDERS: [(&str, &[&str]); 24] = [
+const BORDERS: [(&str, &[&str]); 27] = [
     ("pest", &["src/syntax"]),
     ("pest_derive", &["src/syntax"]),
     ("rustsat", &["src/encode", "src/solve", "src/back/cnf"]),
@@ -67,10 +68,13 @@ const BORDERS: [(&str, &[&str]); 24] = [
     ("dashu_ratio", &["src/exact"]),
     ("miette", &["src/diag"]),
     ("clap", &["src/cli"]),
+    ("clap_complete", &["src/cli"]),
+    ("clap_mangen", &["src/cli"]),
     ("ctrlc", &["src/cli"]),
     ("indicatif", &["src/cli"]),
     ("tempfile", &["src/cli"]),
     ("terminal_size", &["src/cli"]),
+    ("strsim", &["src/explain"]),
     ("std::fs", &["src/cli", "src/main.rs"]),
     ("std::env", &["src/cli", "src/main.rs"]),
     ("std::time::Instant", &["src/cli", "src/main.rs"]),
@@ -299,8 +303,9 @@ fn the_scanner_sees_what_it_is_for() {
 }
 
 /// Codes that no file of the corpus can give, with what tests them instead.
-const WITHOUT_MISSION: [(&str, &str); 12] = [
+const WITHOUT_MISSION: [(&str, &str); 13] = [
     ("dosm::cli::bad_name", "tests/cli.rs"),
+    ("dosm::cli::unknown_code", "tests/explain.rs"),
     ("dosm::cli::unreadable", "tests/cli.rs"),
     ("dosm::cli::unwritable", "tests/cli.rs"),
     ("dosm::cli::usage", "tests/cli.rs"),

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use super::time::parse_time;
 use crate::back::Emit;
@@ -157,6 +158,22 @@ Exit status: 0 the plan holds, 1 usage or files, 2 errors in the mission, 5 the 
     New {
         /// The mission's name: letters, digits and `_`
         name: String,
+    },
+    /// Explain a diagnostic: what it means, why it matters, and how to mend it
+    Explain {
+        /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; none: list all
+        code: Option<String>,
+    },
+    /// Print a script that completes commands and flags in a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Print the manual page, or write the manual
+    Man {
+        /// Where to write dosmc.1 and a page for each command; created where needed
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
     },
 }
 

@@ -8,6 +8,8 @@
 mod args;
 mod check;
 mod compile;
+mod completions;
+mod explain;
 mod files;
 mod mission;
 mod new;
@@ -68,7 +70,7 @@ fn run(args: Args) -> Status {
     if let Some(name) = repeated(&overrides.set) {
         return output.fail(usage(format!("`--set {name}=…` is given twice")));
     }
-    match args.command {
+    let status = match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, &output),
         Command::Compile { mission, output: directory, emit, length } => {
             let wanted = compile::Wanted { emit, length };
@@ -80,7 +82,12 @@ fn run(args: Args) -> Status {
         }
         Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
         Command::New { name } => new::new(&name, &output),
-    }
+        Command::Explain { code } => explain::explain(code.as_deref(), &output),
+        Command::Completions { shell } => completions::completions(shell, &output),
+        Command::Man { output: directory } => completions::man(directory.as_deref(), &output),
+    };
+    output.point_to_explanation();
+    status
 }
 
 /// A parameter that is set twice.

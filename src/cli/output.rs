@@ -1,5 +1,6 @@
 //! What is said to the user and to programs, and where.
 
+use std::cell::OnceCell;
 use std::io::{self, IsTerminal, Write};
 
 use serde::Serialize;
@@ -20,7 +21,11 @@ pub struct Output {
     pub quiet: bool,
     /// How much more to say.
     pub verbose: u8,
+    /// How results on standard output are drawn.
+    pub result_style: Style,
     style: Style,
+    /// The code of the first error that was drawn.
+    first_error: OnceCell<&'static str>,
 }
 
 /// What `--json` prints when a command stops with an error.
@@ -37,23 +42,27 @@ pub struct JsonFailure {
 impl Output {
     /// The streams as the flags want them.
     pub fn new(common: &Common) -> Output {
-        let color = match common.color {
+        let color = |is_terminal: bool| match common.color {
             Color::Always => true,
             Color::Never => false,
-            Color::Auto => colors_by_default(),
+            Color::Auto => is_terminal && colors_by_default(),
         };
         let width = terminal_size::terminal_size().map_or(100, |(w, _)| usize::from(w.0).clamp(60, 120));
         Output {
             json: common.json,
             quiet: common.quiet,
             verbose: common.verbose,
-            style: Style { color, width },
+            result_style: Style { color: color(io::stdout().is_terminal()), width },
+            style: Style { color: color(io::stderr().is_terminal()), width },
+            first_error: OnceCell::new(),
         }
     }
 
     /// Nothing but JSON, for when the flags could not be read.
     pub fn json_only() -> Output {
-        Output { json: true, quiet: true, verbose: 0, style: Style::PLAIN }
+        let style = Style::PLAIN;
+        let first_error = OnceCell::new();
+        Output { json: true, quiet: true, verbose: 0, result_style: style, style, first_error }
     }
 
     /// Prints a result for people on standard output.
@@ -62,6 +71,12 @@ impl Output {
     /// [`Status::Usage`] when it can't be written, which was said.
     pub fn say(&self, text: &str) -> Result<(), Status> {
         if self.json || self.quiet { Ok(()) } else { self.print(text) }
+    }
+
+    /// Prints what a command is for, as text that even `--quiet` keeps or as JSON.
+    pub fn result(&self, text: &str, value: &impl Serialize) -> Status {
+        let printed = if self.json { self.json(value) } else { self.print(text) };
+        printed.err().unwrap_or(Status::Done)
     }
 
     /// Prints a result for programs on standard output.
@@ -86,8 +101,19 @@ impl Output {
     /// Draws diagnostics on standard error; quiet keeps warnings back.
     pub fn diagnostics<'a>(&self, source: &SourceFile, all: impl IntoIterator<Item = &'a Diagnostic>) {
         let kept = all.into_iter().filter(|d| !self.quiet || d.severity == Severity::Error);
+        let kept: Vec<&Diagnostic> = kept.collect();
+        if let Some(error) = kept.iter().find(|d| d.severity == Severity::Error) {
+            let _ = self.first_error.set(error.code);
+        }
         if !self.json {
             self.complain(render(source, kept, self.style).strip_suffix('\n').unwrap_or_default());
+        }
+    }
+
+    /// Says, after errors, where there is more to read about the first of them.
+    pub fn point_to_explanation(&self) {
+        if let (false, Some(code)) = (self.json, self.first_error.get()) {
+            self.note(&format!("for more: dosmc explain {code}"));
         }
     }
 
@@ -141,5 +167,5 @@ pub fn counted(count: usize, noun: &str) -> String {
 
 fn colors_by_default() -> bool {
     let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
-    io::stderr().is_terminal() && !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")
+    !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")
 }
