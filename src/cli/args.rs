@@ -152,6 +152,21 @@ Exit status: 0 the plan holds, 1 usage or files, 2 errors in the mission, 5 the 
         /// The mission; `-` is standard input
         mission: PathBuf,
     },
+    /// Draw a plan: the workspace, every robot's way and tube, and the links at chosen moments
+    #[command(
+        after_help = "The plan is checked first, as `verify` does it; give the same `--set`s as when it was made. FILE.png \
+needs a dosmc built with `--features png`.\n\n\
+Exit status: 0 drawn, 1 usage or files, 2 errors in the mission, 5 the plan is refused."
+    )]
+    Render {
+        /// The plan, a `plan.json`
+        plan: PathBuf,
+        /// The mission; `-` is standard input
+        mission: PathBuf,
+        /// Where to draw it; the name's end says how
+        #[arg(short, long, value_name = "FILE.svg|FILE.png")]
+        output: PathBuf,
+    },
     /// Write a starter mission, NAME.dosm
     #[command(after_help = "The mission is small, complete and explained line by line; \
 `dosmc solve NAME.dosm -o out` plans it.")]

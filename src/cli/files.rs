@@ -93,11 +93,21 @@ impl OutputDirectory {
     /// # Errors
     /// A diagnostic when one can't be written.
     pub fn write(&self, artifacts: &[Artifact]) -> Result<Vec<PathBuf>, Diagnostic> {
+        let files: Vec<_> = artifacts.iter().map(|a| (a.name.as_str(), a.contents.as_bytes())).collect();
+        self.write_bytes(&files)
+    }
+
+    /// Writes all files, given by name and contents, or none; they appear in the order given, each at
+    /// once.
+    ///
+    /// # Errors
+    /// A diagnostic when one can't be written.
+    pub fn write_bytes(&self, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Diagnostic> {
         fs::create_dir_all(&self.path).map_err(|e| unwritable(&self.path, &e))?;
         let mut ready = Vec::new();
-        for artifact in artifacts {
-            let path = self.path.join(&artifact.name);
-            let file = self.filled(artifact.contents.as_bytes()).map_err(|e| unwritable(&path, &e))?;
+        for (name, contents) in files {
+            let path = self.path.join(name);
+            let file = self.filled(contents).map_err(|e| unwritable(&path, &e))?;
             ready.push((path, file));
         }
         let mut written = Vec::new();
@@ -122,6 +132,36 @@ impl OutputDirectory {
         if let Ok(directory) = File::open(&self.path) {
             let _ = directory.sync_all();
         }
+    }
+}
+
+/// A single file that a result goes to; looked at before the work.
+pub struct OutputFile {
+    directory: OutputDirectory,
+    name: String,
+}
+
+impl OutputFile {
+    /// Sees whether the file can be written.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't.
+    pub fn probe(path: &Path) -> Result<OutputFile, Diagnostic> {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let Some(name) = name.filter(|_| !path.is_dir()) else {
+            return Err(unwritable(path, &io::ErrorKind::IsADirectory.into()));
+        };
+        let parent = path.parent().unwrap_or(Path::new(""));
+        Ok(OutputFile { directory: OutputDirectory::probe(parent)?, name: name.into() })
+    }
+
+    /// Writes the file, or nothing; what was there before is replaced at once.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't be written.
+    pub fn write(&self, contents: &[u8]) -> Result<PathBuf, Diagnostic> {
+        let mut written = self.directory.write_bytes(&[(&self.name, contents)])?;
+        Ok(written.pop().unwrap_or_default())
     }
 }
 

@@ -15,6 +15,8 @@ mod mission;
 mod new;
 mod output;
 mod overseer;
+mod png;
+mod render;
 mod solve;
 mod stats;
 mod time;
@@ -81,6 +83,9 @@ fn run(args: Args) -> Status {
             solve::solve(&mission, &directory, &overrides, search, &output)
         }
         Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
+        Command::Render { plan, mission, output: file } => {
+            render::render(&plan, &mission, &file, &overrides, &output)
+        }
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),
         Command::Completions { shell } => completions::completions(shell, &output),

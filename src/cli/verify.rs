@@ -1,7 +1,7 @@
 //! `dosmc verify`: the independent checker.
 
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
@@ -9,6 +9,7 @@ use super::output::{Output, plain_error};
 use super::{Status, files, mission};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Overrides};
+use crate::ir::Problem;
 use crate::plan::{self, Plan};
 use crate::verify::{JsonReport, Report};
 
@@ -27,24 +28,43 @@ pub(super) struct JsonVerify {
     report: JsonReport,
 }
 
+/// A plan that could be read, with what the exact check says of it.
+pub struct Examined {
+    /// What it is a plan of.
+    pub problem: Problem,
+    /// The plan.
+    pub plan: Plan,
+    /// What the check found; the plan may be refused.
+    pub report: Report,
+    /// How long the check took.
+    pub time: Duration,
+}
+
 /// Checks a plan against a mission.
 pub fn verify(plan: &Path, mission: &Path, overrides: &Overrides, output: &Output) -> Status {
+    examine(plan, mission, overrides, output).map_or_else(|status| status, |examined| tell(&examined, output))
+}
+
+/// Reads a plan and its mission, and checks the one against the other.
+///
+/// # Errors
+/// The command's status when one of them can't be read, which was said.
+pub fn examine(
+    plan: &Path,
+    mission: &Path,
+    overrides: &Overrides,
+    output: &Output,
+) -> Result<Examined, Status> {
     if plan == Path::new("-") && mission == Path::new("-") {
-        return output.fail(super::usage("the plan and the mission can't both come from standard input"));
+        return Err(output.fail(super::usage("the plan and the mission can't both come from standard input")));
     }
-    let problem = match mission::problem_or_fail(mission, overrides, output) {
-        Ok(problem) => problem,
-        Err(status) => return status,
-    };
+    let problem = mission::problem_or_fail(mission, overrides, output)?;
     let started = Instant::now();
-    match read_plan(plan) {
-        Ok(Ok(plan)) => {
-            let report = driver::verify(&problem, &plan);
-            tell(&report, started.elapsed().as_secs_f64(), output)
-        }
-        Ok(Err(refused)) => output.fail_with(refused, Status::Refused),
-        Err(problem) => output.fail(problem),
-    }
+    let plan = read_plan(plan)
+        .map_err(|problem| output.fail(problem))?
+        .map_err(|refused| output.fail_with(refused, Status::Refused))?;
+    let report = driver::verify(&problem, &plan);
+    Ok(Examined { problem, plan, report, time: started.elapsed() })
 }
 
 /// A plan from its file: the outer error is the file's, the inner one the plan's.
@@ -57,7 +77,8 @@ fn read_plan(path: &Path) -> Result<Result<Plan, Diagnostic>, Diagnostic> {
 }
 
 /// Says what came out.
-fn tell(report: &Report, time_s: f64, output: &Output) -> Status {
+pub fn tell(examined: &Examined, output: &Output) -> Status {
+    let (report, time_s) = (&examined.report, examined.time.as_secs_f64());
     let (status, code) =
         if report.holds() { ("checked", Status::Done) } else { ("refused", Status::Refused) };
     let json = JsonVerify { status, same_text: report.same_text, time_s, report: report.to_json() };

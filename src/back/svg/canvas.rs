@@ -1,162 +1,91 @@
-//! The drawing surface: metres to pixels, y upwards, and SVG elements as text.
+//! The drawing surface: pixels, and SVG elements as text.
 
-use std::borrow::Cow;
 use std::fmt::Write;
 
-use crate::diag::printable;
-use crate::exact::Rational;
-use crate::geometry::Polytope;
+use super::outline::{Outline, Point};
+use super::text::escape;
 
-/// The longer side of the workspace, in pixels.
-const LONG_SIDE: f64 = 760.0;
-/// The workspace's sides are drawn at least this long, however thin it is.
-const SHORT_SIDE: f64 = 40.0;
-/// Room to the left, for the axis.
-const LEFT: f64 = 52.0;
-/// Room above, for the title.
-const TOP: f64 = 64.0;
-/// Room below, for the axis.
-const BOTTOM: f64 = 48.0;
-/// Room to the right, for the legend.
-pub const LEGEND: f64 = 240.0;
-
-/// A point on the picture, in pixels.
+/// A point on the picture, in pixels, y downwards.
 pub type Pixel = (f64, f64);
 
+/// A part of the picture with a scale of its own: metres to pixels, y upwards.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// The workspace's lower left corner in metres.
+    pub low: Point,
+    /// Its left and upper edge in pixels.
+    pub corner: Pixel,
+    /// Its width and height in pixels.
+    pub size: [f64; 2],
+    /// Pixels a metre.
+    pub scale: f64,
+}
+
+impl View {
+    /// The pixel of a point.
+    pub fn pixel(&self, point: Point) -> Pixel {
+        let [x, y] = [0, 1].map(|axis| (point[axis] - self.low[axis]) * self.scale);
+        (self.corner.0 + x, self.corner.1 + self.size[1] - y)
+    }
+
+    /// The pixels of an outline's corners.
+    pub fn pixels(&self, points: &[Point]) -> Vec<Pixel> {
+        points.iter().map(|p| self.pixel(*p)).collect()
+    }
+
+    /// The path of an outline.
+    pub fn path(&self, outline: &Outline) -> String {
+        let corners = self.pixels(&outline.corners);
+        if outline.radius > 0.0 { rounded(&corners, outline.radius * self.scale) } else { closed(&corners) }
+    }
+
+    /// The attributes of an element that cuts its contents off at the workspace's bounds.
+    pub fn window(&self) -> String {
+        let [x, y, w, h] = [self.corner.0, self.corner.1, self.size[0], self.size[1]].map(px);
+        format!(r#"x="{x}" y="{y}" width="{w}" height="{h}" viewBox="{x} {y} {w} {h}""#)
+    }
+}
+
 /// A picture under way.
+#[derive(Default)]
 pub struct Canvas {
     body: String,
-    low: [f64; 2],
-    /// Pixels a metre.
-    scale: f64,
-    /// Width and height of the workspace in pixels.
-    size: [f64; 2],
-    height: f64,
 }
 
 impl Canvas {
-    /// A canvas for a workspace, at least so many pixels high.
-    pub fn new(workspace: &Polytope, least_height: f64) -> Canvas {
-        let corner = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
-            workspace.vertices.iter().filter_map(|v| v.get(axis)).map(Rational::to_f64).fold(start, pick)
-        };
-        let low = [0, 1].map(|a| corner(a, f64::min, f64::INFINITY));
-        let high = [0, 1].map(|a| corner(a, f64::max, f64::NEG_INFINITY));
-        let extent = [0, 1].map(|a| high[a] - low[a]);
-        let scale = LONG_SIDE / extent[0].max(extent[1]);
-        let size = extent.map(|e| (e * scale).max(SHORT_SIDE));
-        let height = (TOP + size[1] + BOTTOM).max(least_height);
-        let mut canvas = Canvas { body: String::new(), low, scale, size, height };
-        canvas.axes();
-        canvas
-    }
-
-    /// The pixel of a point in metres; coordinates beyond the second are looked at from above.
-    pub fn pixel(&self, point: &[f64]) -> Pixel {
-        let metres = |axis: usize| point.get(axis).copied().unwrap_or(0.0) - self.low[axis];
-        (LEFT + metres(0) * self.scale, TOP + self.size[1] - metres(1) * self.scale)
-    }
-
-    /// A length in pixels.
-    pub fn length(&self, metres: f64) -> f64 {
-        metres * self.scale
-    }
-
-    /// The left edge of the legend and the height of the picture.
-    pub fn legend_corner(&self) -> Pixel {
-        (LEFT + self.size[0] + 28.0, TOP)
-    }
-
     /// Adds a line of SVG.
     pub fn add(&mut self, element: &str) {
         self.body.push_str(element);
         self.body.push('\n');
     }
 
-    /// Adds a name that stays readable over whatever lies below it.
-    ///
-    /// The halo is a text of its own: not every viewer knows `paint-order`.
-    pub fn name(&mut self, at: Pixel, class: &str, contents: &str) {
-        self.text(at, &format!("halo {class}"), contents);
-        self.text(at, &format!("name {class}"), contents);
+    /// Adds a path.
+    pub fn path(&mut self, class: &str, d: &str) {
+        self.add(&format!(r#"<path class="{class}" d="{d}"/>"#));
+    }
+
+    /// Adds a path that says something when it is pointed at.
+    pub fn titled_path(&mut self, class: &str, d: &str, title: &str) {
+        self.add(&format!(r#"<path class="{class}" d="{d}"><title>{}</title></path>"#, escape(title)));
     }
 
     /// Adds a text; its contents are escaped here.
     pub fn text(&mut self, at: Pixel, class: &str, contents: &str) {
-        let element =
-            format!(r#"<text class="{class}" x="{}" y="{}">{}</text>"#, px(at.0), px(at.1), escape(contents));
-        self.add(&element);
+        let (x, y) = (px(at.0), px(at.1));
+        self.add(&format!(r#"<text class="{class}" x="{x}" y="{y}">{}</text>"#, escape(contents)));
     }
 
-    /// The whole file.
-    pub fn finish(self, title: &str) -> String {
-        let (width, height) = (px(LEFT + self.size[0] + LEGEND), px(self.height));
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {width} {height}\" \
-             width=\"{width}\" height=\"{height}\">\n<title>{title}</title>\n{}\
-             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
-            include_str!("style.svg"),
-            self.body
-        )
+    /// Adds a text that stays readable over whatever lies below it.
+    ///
+    /// The halo is a text of its own: not every viewer knows `paint-order`.
+    pub fn haloed(&mut self, at: Pixel, class: &str, contents: &str) {
+        self.text(at, &format!("halo {class}"), contents);
+        self.text(at, class, contents);
     }
 
-    /// Frame and ticks in metres.
-    fn axes(&mut self) {
-        let (x, y, bottom) = (LEFT, TOP, TOP + self.size[1]);
-        let mut grid = String::new();
-        for tick in ticks(self.low[0], self.size[0] / self.scale) {
-            let at = px(self.pixel(&[tick.0, 0.0]).0);
-            let _ = write!(grid, r#"<path class="grid" d="M{at} {}V{}"/>"#, px(y), px(bottom));
-            let _ = writeln!(
-                grid,
-                r#"<text class="tick mid" x="{at}" y="{}">{}</text>"#,
-                px(bottom + 18.0),
-                tick.1
-            );
-        }
-        for tick in ticks(self.low[1], self.size[1] / self.scale) {
-            let at = self.pixel(&[0.0, tick.0]).1;
-            let _ =
-                write!(grid, r#"<path class="grid" d="M{} {}H{}"/>"#, px(x), px(at), px(x + self.size[0]));
-            let _ = writeln!(
-                grid,
-                r#"<text class="tick end" x="{}" y="{}">{}</text>"#,
-                px(x - 8.0),
-                px(at + 4.0),
-                tick.1
-            );
-        }
-        self.add(grid.trim_end());
-        self.text((x + self.size[0] / 2.0, bottom + 38.0), "tick mid", "metres");
-    }
-}
-
-/// Round numbers that cover a range: each value with its text.
-fn ticks(low: f64, extent: f64) -> Vec<(f64, String)> {
-    let rough = extent / 7.0;
-    if !(rough.is_finite() && rough > 0.0) {
-        return Vec::new();
-    }
-    let power = rough.log10().floor();
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .map(|f| f * 10f64.powf(power))
-        .into_iter()
-        .find(|s| *s >= rough)
-        .unwrap_or(rough);
-    let decimals = if step >= 1.0 { 0 } else { (-step.log10()).ceil() as usize };
-    // A hair of slack, so that rounding does not lose a tick on the edge.
-    let first = (low / step - 1e-9).ceil();
-    let all =
-        (0..20).map(|i| (first + f64::from(i)) * step).take_while(|t| *t <= low + extent * (1.0 + 1e-9));
-    all.map(|t| (t, number(t, decimals))).collect()
-}
-
-/// A number of metres for people: fixed decimals, in powers of ten where it is far from 1.
-fn number(value: f64, decimals: usize) -> String {
-    if decimals > 4 || value.abs() >= 1e7 {
-        format!("{value:.2e}")
-    } else {
-        unsigned_zero(format!("{value:.decimals$}"))
+    /// What was drawn.
+    pub fn finish(self) -> String {
+        self.body
     }
 }
 
@@ -166,7 +95,8 @@ pub fn px(value: f64) -> String {
     if value.is_finite() { unsigned_zero(format!("{value:.2}")) } else { "0.00".into() }
 }
 
-fn unsigned_zero(text: String) -> String {
+/// The text without the sign of a zero.
+pub fn unsigned_zero(text: String) -> String {
     if text.starts_with('-') && text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.')) {
         text[1..].into()
     } else {
@@ -174,23 +104,40 @@ fn unsigned_zero(text: String) -> String {
     }
 }
 
-/// A text as SVG character data: no markup, no control characters.
-pub fn escape(text: &str) -> String {
-    let text: Cow<str> = printable(text);
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            // Not allowed in XML, and not printable text either.
-            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
-            _ => out.push(c),
+/// An open path through points.
+pub fn open(points: &[Pixel]) -> String {
+    let at: Vec<String> = points.iter().map(|p| format!("{} {}", px(p.0), px(p.1))).collect();
+    format!("M{}", at.join("L"))
+}
+
+/// A closed path through points.
+pub fn closed(points: &[Pixel]) -> String {
+    open(points) + "Z"
+}
+
+/// A convex polygon, counter-clockwise to the eye, widened by a disc: straight edges, round corners.
+fn rounded(corners: &[Pixel], radius: f64) -> String {
+    let r = px(radius);
+    if let [(x, y)] = corners {
+        let (left, right, y) = (px(x - radius), px(x + radius), px(*y));
+        return format!("M{left} {y}A{r} {r} 0 1 0 {right} {y}A{r} {r} 0 1 0 {left} {y}Z");
+    }
+    let mut path = String::new();
+    for (i, from) in corners.iter().enumerate() {
+        let to = corners[(i + 1) % corners.len()];
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let length = dx.hypot(dy);
+        // Outwards is to the right of the way around, which with y downwards is (−dy, dx).
+        let (ox, oy) = (-dy / length * radius, dx / length * radius);
+        let (a, b) = ((from.0 + ox, from.1 + oy), (to.0 + ox, to.1 + oy));
+        let lead = if i == 0 { "M".to_string() } else { format!("A{r} {r} 0 0 0 ") };
+        let _ = write!(path, "{lead}{} {}L{} {}", px(a.0), px(a.1), px(b.0), px(b.1));
+        if i == 0 {
+            continue;
         }
     }
-    out
+    let first = path.get(1..).and_then(|p| p.split('L').next()).unwrap_or_default().to_string();
+    path + &format!("A{r} {r} 0 0 0 {first}Z")
 }
 
 #[cfg(test)]
@@ -198,23 +145,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_becomes_neither_markup_nor_control() {
-        assert_eq!(
-            escape("</title><script>\"'&\u{1b}"),
-            "&lt;/title&gt;&lt;script&gt;&quot;&#39;&amp;\u{241b}"
-        );
-    }
-
-    #[test]
     fn pixels_have_two_decimals_and_one_zero() {
         assert_eq!([-0.001, 1.0, 2.345_6, f64::NAN].map(px), ["0.00", "1.00", "2.35", "0.00"]);
     }
 
     #[test]
-    fn ticks_are_round_and_inside() {
-        let texts = |low, extent| ticks(low, extent).into_iter().map(|t| t.1).collect::<Vec<_>>();
-        assert_eq!(texts(0.0, 12.0), ["0", "2", "4", "6", "8", "10", "12"]);
-        assert_eq!(texts(-0.3, 0.5), ["-0.3", "-0.2", "-0.1", "0.0", "0.1", "0.2"]);
-        assert_eq!(texts(0.0, f64::INFINITY).len(), 0);
+    fn a_widened_square_has_straight_edges_and_round_corners() {
+        // Counter-clockwise to the eye: left bottom, right bottom, right top, left top.
+        let square = [(0.0, 10.0), (10.0, 10.0), (10.0, 0.0), (0.0, 0.0)];
+        assert_eq!(
+            rounded(&square, 2.0),
+            "M0.00 12.00L10.00 12.00A2.00 2.00 0 0 0 12.00 10.00L12.00 0.00\
+             A2.00 2.00 0 0 0 10.00 -2.00L0.00 -2.00A2.00 2.00 0 0 0 -2.00 0.00L-2.00 10.00\
+             A2.00 2.00 0 0 0 0.00 12.00Z"
+        );
     }
 }

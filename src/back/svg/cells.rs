@@ -1,15 +1,14 @@
 //! The cells of a partition of the workspace, under everything else.
 
-use super::canvas::Canvas;
-use super::shapes::closed;
+use super::canvas::{Canvas, View};
+use super::outline::{Outline, Point};
 
 /// A convex polygon seen from above: its corners in metres.
-pub type Cell = Vec<[f64; 2]>;
+pub type Cell = Vec<Point>;
 
 /// Draws thin outlines.
-pub fn draw(canvas: &mut Canvas, cells: &[Cell]) {
+pub fn draw(canvas: &mut Canvas, view: &View, cells: &[Cell]) {
     for cell in cells {
-        let corners: Vec<_> = cell.iter().map(|corner| canvas.pixel(corner)).collect();
-        canvas.add(&format!(r#"<path class="cell" d="{}"/>"#, closed(&corners)));
+        canvas.path("cell", &view.path(&Outline { corners: cell.clone(), radius: 0.0 }));
     }
 }

@@ -1,101 +1,205 @@
-//! Title and legend.
+//! The legend: every mark that the picture uses, and no other.
 
-use super::canvas::{Canvas, Pixel, px};
-use super::{links, shapes, ways};
-use crate::ir::{BlockerKind, Problem};
-use crate::plan::Plan;
+use super::canvas::{Canvas, Pixel, open, px};
+use super::layout::{FONT, Layout};
+use super::mark;
+use super::scene::Scene;
+use super::stills;
+use super::text;
+use super::ways::{MARK, START, arrow};
+use crate::ir::BlockerKind;
 
 /// The most robots listed by name.
-const MOST_LISTED: usize = 24;
+const MOST_ROBOTS: usize = 24;
 /// Pixels a row.
-const ROW: f64 = 22.0;
-/// The longest name that fits beside a mark, in characters.
-const LONGEST: usize = 28;
+const ROW: f64 = 23.0;
+/// A swatch's width, and where its text begins.
+const SWATCH: f64 = 34.0;
+const TEXT: f64 = 42.0;
 
-/// How high the picture has to be for its legend.
-pub fn height(problem: &Problem) -> f64 {
-    100.0 + ROW * (rows(problem) as f64 + 10.0)
+/// One entry.
+struct Entry {
+    text: String,
+    swatch: Swatch,
 }
 
-fn rows(problem: &Problem) -> usize {
-    problem.robots.len().min(MOST_LISTED + 1)
+/// What stands before the text.
+enum Swatch {
+    /// A robot's mark.
+    Robot(usize),
+    /// Nothing.
+    None,
+    /// The way before the loop.
+    Prefix,
+    /// The loop.
+    Loop,
+    /// The mark of a loop of one step, or of the loop's first step.
+    Ring,
+    /// The mark of a start.
+    Start,
+    /// Where a robot can be at the steps and between them.
+    Tube,
+    /// A link.
+    Link,
+    /// A base station.
+    Base,
+    /// A box with a class.
+    Box(String),
+    /// A box with a class in a larger one.
+    Grown(String),
 }
 
-/// Draws the title above and the legend to the right.
-pub fn draw(canvas: &mut Canvas, problem: &Problem, plan: &Plan) {
-    let (x, y) = canvas.legend_corner();
-    canvas.text((52.0, 30.0), "title", &problem.name);
-    let view = if problem.dimension > 2 { ", seen from above" } else { "" };
-    canvas.text((52.0, 50.0), "sub", &(plan.summary() + view));
-    let mut at = (x, y + 8.0);
-    heading(canvas, &mut at, "ROBOTS");
-    for (index, robot) in plan.robots.iter().take(MOST_LISTED).enumerate() {
-        swatch_line(canvas, at, ways::color(index), "2.4", "");
-        row(canvas, &mut at, &robot.name);
+/// Draws the legend, and says where it ends.
+pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, with_links: bool) -> f64 {
+    let (left, top) = layout.legend;
+    let room = layout.legend_width;
+    let mut y = top;
+    for entries in [robots(scene), moving(scene, with_links), still(scene)] {
+        let mut x = left;
+        for entry in &entries {
+            let short = text::cut(&entry.text, FONT, false, room - TEXT);
+            let width = TEXT + text::width(&short, FONT, false);
+            if x > left && x + width > left + room {
+                x = left;
+                y += ROW;
+            }
+            swatch(canvas, (x, y + ROW / 2.0), &entry.swatch);
+            canvas.text((x + TEXT, y + ROW / 2.0 + 0.36 * FONT), "", &short);
+            x += width + 18.0;
+        }
+        if !entries.is_empty() {
+            y += ROW;
+        }
     }
-    if plan.robots.len() > MOST_LISTED {
-        row(canvas, &mut at, &format!("and {} more", plan.robots.len() - MOST_LISTED));
+    y
+}
+
+fn robots(scene: &Scene) -> Vec<Entry> {
+    let named = |(index, robot): (usize, &super::scene::Mover)| Entry {
+        text: robot.name.into(),
+        swatch: Swatch::Robot(index),
+    };
+    let mut entries: Vec<Entry> = scene.robots.iter().enumerate().take(MOST_ROBOTS).map(named).collect();
+    if scene.robots.len() > MOST_ROBOTS {
+        let text = format!("and {} more", scene.robots.len() - MOST_ROBOTS);
+        entries.push(Entry { text, swatch: Swatch::None });
     }
-    at.1 += ROW / 2.0;
-    heading(canvas, &mut at, "MARKS");
-    swatch_line(canvas, at, "#57606a", "1.8", r#" stroke-dasharray="2 5" stroke-linecap="round""#);
-    row(canvas, &mut at, "before the loop");
-    swatch_line(canvas, at, "#57606a", "2.4", "");
-    row(canvas, &mut at, "the loop, for ever");
-    canvas.add(&format!(
-        r##"<rect x="{}" y="{}" width="14" height="14" fill="#57606a" fill-opacity=".10" stroke="#57606a" stroke-opacity=".45"/>"##,
-        px(at.0 + 5.0),
-        px(at.1 - 11.0)
-    ));
-    row(canvas, &mut at, "where it can be at a step");
-    if !links::at_last_step(plan).is_empty() {
-        let (x, y) = (px(at.0), px(at.1 - 4.0));
-        canvas.add(&format!(r#"<path class="link" d="M{x} {y}h24"/>"#));
-        row(canvas, &mut at, &format!("radio links at step {}", plan.length));
+    entries
+}
+
+/// What the ways are drawn with.
+fn moving(scene: &Scene, with_links: bool) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |swatch, text: &str| entries.push(Entry { text: text.into(), swatch });
+    add(Swatch::Start, "start");
+    if scene.loop_start() > 0 {
+        add(Swatch::Prefix, "before the loop");
     }
-    still(canvas, &mut at, problem);
+    if scene.stays() {
+        add(Swatch::Ring, "stays for ever");
+    } else {
+        add(Swatch::Loop, "the loop, for ever");
+        add(Swatch::Ring, "the loop begins");
+    }
+    add(Swatch::Tube, "where it can be");
+    if with_links {
+        add(Swatch::Link, "radio link, wherever its ends are");
+    }
+    entries
 }
 
 /// The marks of what stands still, as far as the mission has it.
-fn still(canvas: &mut Canvas, at: &mut Pixel, problem: &Problem) {
-    if !problem.bases.is_empty() {
-        shapes::mast(canvas, (at.0 + 12.0, at.1 - 4.0));
-        row(canvas, at, "base");
-    }
-    if !problem.regions.is_empty() {
-        swatch_box(canvas, *at, "region");
-        row(canvas, at, "region");
-    }
-    for (kind, text) in [
+fn still(scene: &Scene) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |swatch, text: &str| entries.push(Entry { text: text.into(), swatch });
+    let kinds = [
         (BlockerKind::Jammer, "jammer"),
         (BlockerKind::Obstacle, "obstacle"),
         (BlockerKind::OpaqueObstacle, "opaque obstacle"),
-    ] {
-        if problem.blockers.values().any(|b| b.kind == kind) {
-            swatch_box(canvas, *at, shapes::class(kind));
-            row(canvas, at, text);
+    ];
+    for (kind, text) in kinds {
+        if scene.blockers.iter().any(|(k, _)| *k == kind) {
+            add(Swatch::Box(stills::class(kind).into()), text);
+        }
+    }
+    let several = scene.tubes.len() > 1;
+    let whose = |index: usize| if several { format!(" of {}", scene.tubes[index]) } else { String::new() };
+    if !scene.blockers.is_empty() {
+        for index in 0..scene.tubes.len() {
+            add(
+                Swatch::Grown(format!("grown t{}", index % 3)),
+                &format!("grown by the tube{}", whose(index)),
+            );
+        }
+    }
+    if !scene.regions.is_empty() {
+        add(Swatch::Box("region".into()), "region");
+        for index in 0..scene.tubes.len() {
+            add(
+                Swatch::Box(format!("shrunk t{}", index % 3)),
+                &format!("shrunk by the tube{}", whose(index)),
+            );
+        }
+    }
+    if !scene.bases.is_empty() {
+        add(Swatch::Base, "base");
+    }
+    entries
+}
+
+/// Draws a swatch whose left edge's middle is given.
+fn swatch(canvas: &mut Canvas, (x, y): Pixel, swatch: &Swatch) {
+    let middle = (x + SWATCH / 2.0, y);
+    let line = open(&[(x, y), (x + SWATCH, y)]);
+    match swatch {
+        Swatch::None => {}
+        Swatch::Robot(index) => {
+            grouped(canvas, mark::color(*index), &[("stop", mark::path(*index, middle, MARK + 2.5))])
+        }
+        Swatch::Prefix => grouped(canvas, GREY, &[("prefix", line), ("passed", mark::path(0, middle, MARK))]),
+        Swatch::Loop => {
+            grouped(canvas, GREY, &[("loop", line)]);
+            arrow(canvas, GREY, (x, y), (x + SWATCH, y));
+        }
+        Swatch::Ring => {
+            grouped(
+                canvas,
+                GREY,
+                &[("ring", mark::path(0, middle, MARK + 4.5)), ("stop", mark::path(0, middle, MARK))],
+            );
+        }
+        Swatch::Start => grouped(canvas, GREY, &[("passed", mark::path(0, middle, START))]),
+        Swatch::Tube => {
+            canvas.add(&format!(
+                r#"<g class="swept" fill="{GREY}"><path d="{}"/></g>"#,
+                boxed(x, y, SWATCH, 16.0)
+            ));
+            let ends = [boxed(x, y, 16.0, 16.0), boxed(x + SWATCH - 16.0, y, 16.0, 16.0)].concat();
+            canvas.add(&format!(r#"<g class="tube" stroke="{GREY}"><path d="{ends}"/></g>"#));
+        }
+        Swatch::Link => {
+            canvas.add(&format!(r#"<g class="beam"><path d="{}"/></g>"#, boxed(x, y, SWATCH, 14.0)));
+            canvas.path("link", &line);
+        }
+        Swatch::Base => canvas.path("base", &mark::mast(middle, mark::MAST)),
+        Swatch::Box(class) => canvas.path(class, &boxed(x, y, SWATCH, 16.0)),
+        Swatch::Grown(class) => {
+            canvas.add(&format!(r#"<g class="kept"><path d="{}"/></g>"#, boxed(x, y, SWATCH, 16.0)));
+            canvas.path(class, &boxed(x, y, SWATCH, 16.0));
         }
     }
 }
 
-fn heading(canvas: &mut Canvas, at: &mut Pixel, text: &str) {
-    canvas.text(*at, "head", text);
-    at.1 += ROW;
+/// The colour of what belongs to every robot.
+const GREY: &str = "#4b535d";
+
+fn grouped(canvas: &mut Canvas, color: &str, paths: &[(&str, String)]) {
+    canvas.add(&format!(r#"<g stroke="{color}" fill="{color}">"#));
+    paths.iter().for_each(|(class, d)| canvas.path(class, d));
+    canvas.add("</g>");
 }
 
-fn row(canvas: &mut Canvas, at: &mut Pixel, text: &str) {
-    let short: String = text.chars().take(LONGEST).collect();
-    let text = if short.len() < text.len() { short + "…" } else { short };
-    canvas.text((at.0 + 34.0, at.1), "", &text);
-    at.1 += ROW;
-}
-
-fn swatch_line(canvas: &mut Canvas, at: Pixel, color: &str, width: &str, more: &str) {
-    let (x, y) = (px(at.0), px(at.1 - 4.0));
-    canvas.add(&format!(r#"<path d="M{x} {y}h24" stroke="{color}" stroke-width="{width}"{more}/>"#));
-}
-
-fn swatch_box(canvas: &mut Canvas, at: Pixel, class: &str) {
-    let (x, y) = (px(at.0), px(at.1 - 11.0));
-    canvas.add(&format!(r#"<rect class="{class}" x="{x}" y="{y}" width="24" height="14"/>"#));
+/// A box by the middle of its left edge.
+fn boxed(x: f64, y: f64, width: f64, height: f64) -> String {
+    format!("M{} {}h{}v{}h{}Z", px(x), px(y - height / 2.0), px(width), px(height), px(-width))
 }

@@ -1,14 +1,28 @@
-//! The picture of a plan: the workspace to scale, what is in it, and every robot's way with its tube.
+//! The picture of a plan: the workspace to scale, what is in it, every robot's way with its tube, and
+//! below it the links at chosen moments.
 //!
-//! The picture is static and self-contained. Numbers have a fixed number of decimals and everything
-//! is drawn in the mission's order, so the same plan gives the same bytes. A mission in space is
-//! seen from above.
+//! The picture is static and self-contained, and says the same without its colours: ways differ in
+//! their marks, the loop and what comes before it in their lines, blockers in their hatches. Numbers
+//! have a fixed number of decimals and everything is drawn in the mission's order, so the same plan
+//! gives the same bytes. A mission in space is seen from above.
+//!
+//! A [`Scene`](scene::Scene) is what there is to draw, in metres; a [`Layout`](layout::Layout) says
+//! where the parts go; all other modules draw one part each.
 
+mod axes;
 mod canvas;
 mod cells;
+mod labels;
+mod layout;
 mod legend;
-mod links;
-mod shapes;
+mod mark;
+mod moments;
+mod outline;
+mod panels;
+mod scene;
+mod section;
+mod stills;
+mod text;
 mod ways;
 
 #[cfg(test)]
@@ -17,7 +31,11 @@ mod tests;
 use crate::back::Artifact;
 use crate::ir::Problem;
 use crate::plan::Plan;
-use canvas::{Canvas, escape};
+use canvas::{Canvas, px};
+use labels::{Places, Rect};
+use layout::{FONT, Layout, MARGIN};
+use scene::Scene;
+use text::escape;
 
 pub use cells::Cell;
 
@@ -33,13 +51,85 @@ pub struct Options<'a> {
 
 /// Draws a plan of a problem.
 pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
-    let mut canvas = Canvas::new(&problem.workspace, legend::height(problem));
-    cells::draw(&mut canvas, options.cells);
-    shapes::draw(&mut canvas, problem);
-    links::draw(&mut canvas, problem, plan);
-    ways::draw(&mut canvas, problem, plan);
-    shapes::draw_names(&mut canvas, problem);
-    legend::draw(&mut canvas, problem, plan);
-    let title = format!("{}: {}", problem.name, plan.summary());
-    Artifact { name: NAME.into(), contents: canvas.finish(&escape(&title)) }
+    let scene = Scene::new(problem, plan);
+    let layout = Layout::new(&scene.workspace);
+    let mut canvas = Canvas::default();
+    title(&mut canvas, &layout, &scene);
+    main_panel(&mut canvas, &layout, &scene, options);
+    let moments = moments::choose(&scene, layout.moments());
+    let with_links = moments.iter().any(|m| !scene.links(m.step).is_empty());
+    let bottom = legend::draw(&mut canvas, &layout, &scene, with_links).max(layout.main_bottom());
+    let bottom = panels::draw(&mut canvas, &layout, &scene, &moments, bottom + 14.0);
+    let contents = file(&layout, bottom, &scene, &canvas.finish());
+    Artifact { name: NAME.into(), contents }
+}
+
+fn title(canvas: &mut Canvas, layout: &Layout, scene: &Scene) {
+    let room = layout.width - 2.0 * MARGIN;
+    canvas.text((MARGIN, 30.0), "title", &text::cut(&scene.problem.name, 20.0, true, room));
+    canvas.text((MARGIN, 52.0), "", &text::cut(&subtitle(scene), FONT, false, room));
+}
+
+/// The lasso, and how it is looked at.
+fn subtitle(scene: &Scene) -> String {
+    let view = if scene.problem.dimension > 2 { "; seen from above" } else { "" };
+    scene.plan.summary() + view
+}
+
+/// The workspace with the ways, all labels last.
+fn main_panel(canvas: &mut Canvas, layout: &Layout, scene: &Scene, options: &Options) {
+    let view = &layout.main;
+    canvas.add(&format!("<svg {}>", view.window()));
+    cells::draw(canvas, view, options.cells);
+    axes::grid(canvas, layout);
+    stills::draw(canvas, view, scene, true);
+    ways::tubes(canvas, view, scene);
+    canvas.add("</svg>");
+    stills::frame(canvas, view, scene);
+    stills::bases(canvas, view, scene, mark::MAST);
+    ways::draw(canvas, view, scene);
+    let mut places = Places::new(label_area(layout));
+    axes::draw(canvas, layout, &mut places);
+    stills::keep_visible(view, scene, &mut places);
+    ways::keep_visible(view, scene, &mut places);
+    ways::names(canvas, view, scene, &mut places);
+    stills::names(canvas, view, scene, &mut places);
+    ways::numbers(canvas, view, scene, &mut places);
+}
+
+/// Labels stay in the main panel, or in the air around a thin one.
+fn label_area(layout: &Layout) -> Rect {
+    let ((x, y), [w, h], [side, above]) = (layout.main.corner, layout.main.size, layout.air);
+    Rect { x: x - side, y: y - above, w: w + 2.0 * side, h: h + 2.0 * above }
+}
+
+/// The whole file around what was drawn.
+fn file(layout: &Layout, height: f64, scene: &Scene, body: &str) -> String {
+    let (width, height) = (px(layout.width), px(height + MARGIN));
+    let title = escape(&scene.problem.name);
+    let description = escape(&description(scene));
+    let style = include_str!("style.svg");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {width} {height}\" \
+         width=\"{width}\" height=\"{height}\" aria-labelledby=\"title desc\">\n\
+         <title id=\"title\">{title}</title>\n<desc id=\"desc\">{description}</desc>\n{style}\
+         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+    )
+}
+
+/// The picture in words, for those who can't see it.
+fn description(scene: &Scene) -> String {
+    let (low, high) = scene.workspace.bounds();
+    let names = |all: Vec<&str>| if all.is_empty() { "none".to_string() } else { all.join(", ") };
+    format!(
+        "A plan of {}. Workspace of {:.2} m by {:.2} m. Robots: {}. Base stations: {}. Jammers and obstacles: {}. \
+         Regions: {}.",
+        subtitle(scene),
+        high[0] - low[0],
+        high[1] - low[1],
+        names(scene.robots.iter().map(|r| r.name).collect()),
+        names(scene.bases.iter().map(|b| b.0).collect()),
+        names(scene.blockers.iter().map(|(_, b)| b.name).collect()),
+        names(scene.regions.iter().map(|r| r.name).collect()),
+    )
 }

@@ -1,163 +1,157 @@
 //! What moves: each robot's nominal way with its steps, and the tube around it.
 
 use std::cmp::Ordering;
-use std::fmt::Write;
 
-use super::canvas::{Canvas, Pixel, escape, px};
-use crate::ir::Problem;
-use crate::plan::{Plan, RobotPlan, Tube};
+use super::canvas::{Canvas, Pixel, View, open};
+use super::labels::{self, Places, Rect};
+use super::layout::{FONT, SMALL};
+use super::mark;
+use super::scene::{Mover, Scene};
+use super::stills::label;
+use super::text;
 
-/// Colours that people with any colour vision can tell apart (Okabe and Ito), darkest first.
-const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#8250df", "#009e73", "#cc79a7", "#b8860b", "#56b4e9"];
+/// The radius of a step's mark.
+pub const MARK: f64 = 4.0;
+/// The radius of the mark of the start.
+pub const START: f64 = 7.0;
+/// The most step numbers in a picture; where there are more steps, every other one has one, or
+/// every third …
+const MOST_NUMBERS: usize = 160;
 
-/// The colour of the `index`-th robot.
-pub fn color(index: usize) -> &'static str {
-    COLORS[index % COLORS.len()]
+/// Draws where every robot can be, between the steps and at them.
+pub fn tubes(canvas: &mut Canvas, view: &View, scene: &Scene) {
+    for (index, robot) in scene.robots.iter().enumerate() {
+        let color = mark::color(index);
+        // One group for the whole way: where it crosses itself it is no darker.
+        canvas.add(&format!(r#"<g class="swept" fill="{color}">"#));
+        for (from, to) in legs(scene, robot) {
+            let between = robot.tube.at(robot.points[from]).joined(&robot.tube.at(robot.points[to]));
+            canvas.path("", &view.path(&between));
+        }
+        canvas.add("</g>");
+        canvas.add(&format!(r#"<g class="tube" stroke="{color}">"#));
+        for point in &robot.points {
+            canvas.path("", &view.path(&robot.tube.at(*point)));
+        }
+        canvas.add("</g>");
+    }
 }
 
-/// Draws all tubes, then all ways over them.
-pub fn draw(canvas: &mut Canvas, problem: &Problem, plan: &Plan) {
-    let ways: Vec<Way> = plan.robots.iter().map(|robot| Way::new(canvas, problem, plan, robot)).collect();
-    for (index, way) in ways.iter().enumerate() {
-        way.draw_tube(canvas, color(index));
+/// The pairs of steps that follow each other, the loop's closing one included.
+fn legs(scene: &Scene, robot: &Mover) -> Vec<(usize, usize)> {
+    let count = robot.points.len();
+    let along = (1..count).map(|t| (t - 1, t));
+    let back = (count > 0).then(|| (count - 1, scene.plan.loop_start.min(count - 1)));
+    along.chain(back).collect()
+}
+
+/// Draws the nominal ways: the prefix dashed with hollow marks, the loop solid with full ones.
+pub fn draw(canvas: &mut Canvas, view: &View, scene: &Scene) {
+    for (index, robot) in scene.robots.iter().enumerate() {
+        let points = view.pixels(&robot.points);
+        let k = scene.loop_start();
+        let (Some(again), color) = (points.get(k), mark::color(index)) else { continue };
+        let round: Vec<Pixel> = points[k..].iter().chain([again]).copied().collect();
+        canvas.add(&format!(r#"<g stroke="{color}">"#));
+        canvas.path("prefix", &open(&points[..=k]));
+        if !scene.stays() {
+            canvas.path("loop", &open(&round));
+        }
+        canvas.add("</g>");
+        if !scene.stays() {
+            round.windows(2).for_each(|pair| arrow(canvas, color, pair[0], pair[1]));
+        }
     }
-    for (index, way) in ways.iter().enumerate() {
-        way.draw_path(canvas, color(index), plan.loop_start);
-    }
-    for (index, way) in ways.iter().enumerate() {
-        way.draw_start(canvas, color(index));
+    for (index, robot) in scene.robots.iter().enumerate() {
+        marks(canvas, view, scene, index, robot);
     }
 }
 
-/// A robot's way in pixels.
-struct Way {
-    name: String,
-    /// The nominal position at each step.
-    points: Vec<Pixel>,
-    /// What is said of each step.
-    notes: Vec<String>,
-    /// The tube's middle relative to the nominal position, and its half-widths.
-    tube: Option<(Pixel, Pixel)>,
-}
-
-impl Way {
-    fn new(canvas: &Canvas, problem: &Problem, plan: &Plan, robot: &RobotPlan) -> Way {
-        let model = problem.models.values().find(|m| m.name == robot.dynamics);
-        let axes: &[usize] = model.map_or(&[], |m| &m.position);
-        let position =
-            |z: &Vec<f64>| axes.iter().map(|&a| z.get(a).copied().unwrap_or(0.0)).collect::<Vec<f64>>();
-        let positions: Vec<Vec<f64>> = robot.z.iter().map(position).collect();
-        let tube = plan.tubes.iter().find(|t| t.dynamics == robot.dynamics).zip(axes.get(..2));
-        Way {
-            name: robot.name.clone(),
-            points: positions.iter().map(|p| canvas.pixel(p)).collect(),
-            notes: positions.iter().enumerate().map(|(t, p)| note(&robot.name, t, plan.step_s, p)).collect(),
-            tube: tube.map(|(tube, axes)| {
-                let (x, y) = (support(tube, axes[0]), support(tube, axes[1]));
-                ((canvas.length(x.0), -canvas.length(y.0)), (canvas.length(x.1), canvas.length(y.1)))
-            }),
+fn marks(canvas: &mut Canvas, view: &View, scene: &Scene, index: usize, robot: &Mover) {
+    let color = mark::color(index);
+    canvas.add(&format!(r#"<g stroke="{color}" fill="{color}">"#));
+    for (step, point) in robot.points.iter().enumerate() {
+        let at = view.pixel(*point);
+        let looping = step >= scene.loop_start();
+        let class = if looping { "stop" } else { "passed" };
+        if step == scene.loop_start() {
+            canvas.path("ring", &mark::path(index, at, MARK + 4.5));
         }
+        let radius = if step == 0 { START } else { MARK };
+        canvas.titled_path(class, &mark::path(index, at, radius), &note(scene, robot, step));
     }
-
-    /// The boxes in which the robot is at each step, whatever the disturbance does.
-    fn draw_tube(&self, canvas: &mut Canvas, color: &str) {
-        let Some((middle, half)) = self.tube else { return };
-        let mut group = format!(
-            r#"<g fill="{color}" fill-opacity=".10" stroke="{color}" stroke-opacity=".45" stroke-width=".8">"#
-        );
-        for p in &self.points {
-            let (x, y) = (px(p.0 + middle.0 - half.0), px(p.1 + middle.1 - half.1));
-            let _ = write!(
-                group,
-                r#"<rect x="{x}" y="{y}" width="{}" height="{}"/>"#,
-                px(2.0 * half.0),
-                px(2.0 * half.1)
-            );
-        }
-        canvas.add(&(group + "</g>"));
-    }
-
-    /// The prefix dashed, the loop solid with its closing step, a dot a step.
-    fn draw_path(&self, canvas: &mut Canvas, color: &str, loop_start: usize) {
-        let (Some(last), Some(again)) = (self.points.last(), self.points.get(loop_start)) else { return };
-        let prefix = &self.points[..=loop_start];
-        let round: Vec<Pixel> = self.points[loop_start..].iter().copied().chain([*again]).collect();
-        let line = r#"fill="none" stroke-linejoin="round" stroke-linecap="round""#;
-        canvas.add(&format!(
-            r#"<path d="{}" {line} stroke="{color}" stroke-width="1.8" stroke-dasharray="2 5"/>"#,
-            open(prefix)
-        ));
-        canvas.add(&format!(r#"<path d="{}" {line} stroke="{color}" stroke-width="2.4"/>"#, open(&round)));
-        for pair in round.windows(2) {
-            arrow(canvas, color, pair[0], pair[1]);
-        }
-        let mut dots = format!(r##"<g fill="{color}" stroke="#ffffff" stroke-width="1">"##);
-        for (p, note) in self.points.iter().zip(&self.notes) {
-            let radius = if p == last { "3.60" } else { "3.00" };
-            let _ = write!(
-                dots,
-                r#"<circle cx="{}" cy="{}" r="{radius}"><title>{}</title></circle>"#,
-                px(p.0),
-                px(p.1),
-                escape(note)
-            );
-        }
-        canvas.add(&(dots + "</g>"));
-    }
-
-    /// A ring and the robot's name where it starts.
-    fn draw_start(&self, canvas: &mut Canvas, color: &str) {
-        let Some(&(x, y)) = self.points.first() else { return };
-        canvas.add(&format!(
-            r##"<circle cx="{}" cy="{}" r="6" fill="#ffffff" stroke="{color}" stroke-width="2.4"/>"##,
-            px(x),
-            px(y)
-        ));
-        let (x, y) = (x + 9.0, y - 7.0);
-        canvas.text((x, y), "halo", &self.name);
-        let name = escape(&self.name);
-        canvas.add(&format!(
-            r#"<text class="name" x="{}" y="{}" style="fill:{color}">{name}</text>"#,
-            px(x),
-            px(y)
-        ));
-    }
+    canvas.add("</g>");
 }
 
 /// What the pointer shows over a step.
-fn note(name: &str, step: usize, step_s: f64, position: &[f64]) -> String {
-    let at: Vec<String> = position.iter().map(|x| format!("{x:.3}")).collect();
-    format!("{name}, step {step}, {:.3} s: ({}) m", step as f64 * step_s, at.join(", "))
+fn note(scene: &Scene, robot: &Mover, step: usize) -> String {
+    let at: Vec<String> = robot.positions[step].iter().map(|x| format!("{x:.3}")).collect();
+    let time = step as f64 * scene.plan.step_s;
+    format!("{}, step {step}, {time:.3} s: ({}) m", robot.name, at.join(", "))
 }
 
-/// Middle and half-width of the tube along one state: Σ D_i center, Σ |D_i| half_width.
-fn support(tube: &Tube, state: usize) -> (f64, f64) {
-    let row = |d: &'_ Vec<Vec<f64>>| d.get(state).cloned().unwrap_or_default();
-    let along = |weights: &[f64], pick: fn(f64) -> f64| -> f64 {
-        tube.d
-            .iter()
-            .flat_map(|d| row(d).into_iter().zip(weights).map(|(x, w)| pick(x) * w).collect::<Vec<_>>())
-            .sum()
-    };
-    (along(&tube.center, |x| x), along(&tube.half_width, f64::abs))
+/// Makes labels pay for covering ways and marks.
+pub fn keep_visible(view: &View, scene: &Scene, places: &mut Places) {
+    for robot in &scene.robots {
+        let points = view.pixels(&robot.points);
+        for (from, to) in legs(scene, robot) {
+            places.line(points[from], points[to], 1.0);
+        }
+        for (step, at) in points.iter().enumerate() {
+            let size = if step == 0 { 2.0 * START + 2.0 } else { 2.0 * MARK + 3.0 };
+            places.spot(Rect::around(*at, size, size), 6.0);
+        }
+    }
 }
 
-/// An open path through points.
-fn open(points: &[Pixel]) -> String {
-    let at: Vec<String> = points.iter().map(|p| format!("{} {}", px(p.0), px(p.1))).collect();
-    format!("M{}", at.join("L"))
+/// Writes the robots' names where they start.
+pub fn names(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Places) {
+    let room = (view.size[0] * 0.4).clamp(90.0, 170.0);
+    for (index, robot) in scene.robots.iter().enumerate() {
+        let Some(start) = robot.points.first() else { continue };
+        let short = text::cut(robot.name, FONT, true, room);
+        let w = text::width(&short, FONT, true);
+        let choices = labels::around(view.pixel(*start), w, FONT, &[START + 3.0, START + 16.0, START + 34.0]);
+        if let Some(rect) = places.take(choices, 300.0) {
+            label(canvas, &rect, &format!("name mid {}", mark::ink(index)), &short);
+        }
+    }
+}
+
+/// Writes the steps' numbers where they fit.
+pub fn numbers(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Places) {
+    let all: usize = scene.robots.iter().map(|r| r.points.len()).sum();
+    let stride = all.div_ceil(MOST_NUMBERS).max(1);
+    for (index, robot) in scene.robots.iter().enumerate() {
+        for (step, point) in robot.points.iter().enumerate().skip(1) {
+            // Where the loop begins and where it ends is what people look for.
+            if step % stride != 0 && step != scene.loop_start() && step + 1 != robot.points.len() {
+                continue;
+            }
+            let number = step.to_string();
+            let w = text::width(&number, SMALL, false);
+            let choices = labels::around(view.pixel(*point), w, SMALL - 2.0, &[MARK + 3.0, MARK + 7.0]);
+            if let Some(rect) = places.take(choices, 5.5) {
+                let (x, y) = rect.middle();
+                canvas.haloed((x, y + 0.36 * SMALL), &format!("step mid {}", mark::ink(index)), &number);
+            }
+        }
+    }
 }
 
 /// A small arrow head in the middle of a segment, where the segment is long enough for one.
-fn arrow(canvas: &mut Canvas, color: &str, from: Pixel, to: Pixel) {
+pub fn arrow(canvas: &mut Canvas, color: &str, from: Pixel, to: Pixel) {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx.hypot(dy);
     // Not a number is no length either.
-    if length.partial_cmp(&22.0).is_none_or(Ordering::is_lt) {
+    if length.partial_cmp(&26.0).is_none_or(Ordering::is_lt) {
         return;
     }
     let (ux, uy) = (dx / length, dy / length);
-    let tip = (from.0 + dx / 2.0 + ux * 5.0, from.1 + dy / 2.0 + uy * 5.0);
-    let wing = |side: f64| (tip.0 - ux * 9.0 - uy * side, tip.1 - uy * 9.0 + ux * side);
-    canvas.add(&format!(r#"<path d="{}Z" fill="{color}"/>"#, open(&[tip, wing(4.5), wing(-4.5)])));
+    let tip = (from.0 + dx / 2.0 + ux * 6.5, from.1 + dy / 2.0 + uy * 6.5);
+    let wing = |side: f64| (tip.0 - ux * 13.0 - uy * side, tip.1 - uy * 13.0 + ux * side);
+    canvas.add(&format!(
+        r#"<path class="arrow" d="{}Z" fill="{color}"/>"#,
+        open(&[tip, wing(6.0), wing(-6.0)])
+    ));
 }

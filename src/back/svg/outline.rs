@@ -1,0 +1,161 @@
+//! Convex outlines in the plane: what sets of positions look like from above, in metres.
+
+use super::section::Section;
+use crate::exact::Rational;
+use crate::geometry::{HalfSpace, Polytope};
+use crate::ir::Piece;
+
+/// A point seen from above, in metres.
+pub type Point = [f64; 2];
+
+/// How many corners stand for an outline made of arcs.
+const ARC_CORNERS: usize = 120;
+
+/// A convex polygon widened by a disc.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// The polygon's corners, counter-clockwise; one for a disc.
+    pub corners: Vec<Point>,
+    /// The disc's radius; 0 for a polygon.
+    pub radius: f64,
+}
+
+impl Outline {
+    /// The convex hull of points.
+    pub fn hull(mut points: Vec<Point>) -> Outline {
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        points.dedup();
+        if let [only] = points[..] {
+            return Outline { corners: vec![only], radius: 0.0 };
+        }
+        let lower = half_hull(points.iter());
+        let upper = half_hull(points.iter().rev());
+        Outline { corners: lower.into_iter().chain(upper).collect(), radius: 0.0 }
+    }
+
+    /// A piece seen from above.
+    pub fn of(piece: &Piece) -> Outline {
+        match piece {
+            Piece::Polytope(polytope) => Outline::of_polytope(polytope),
+            Piece::Ball { center, spread, radius } => {
+                let (center, spread) = (from_above(center), from_above(spread));
+                let corners = corners_of_box(&center, &spread);
+                Outline { radius: radius.to_f64(), ..Outline::hull(corners) }
+            }
+        }
+    }
+
+    /// A polytope seen from above.
+    pub fn of_polytope(polytope: &Polytope) -> Outline {
+        Outline::hull(polytope.vertices.iter().map(|v| from_above(v)).collect())
+    }
+
+    /// The Minkowski sum of two outlines.
+    pub fn plus(&self, other: &Outline) -> Outline {
+        let sums = self.corners.iter().flat_map(|a| other.corners.iter().map(|b| [a[0] + b[0], a[1] + b[1]]));
+        Outline { radius: self.radius + other.radius, ..Outline::hull(sums.collect()) }
+    }
+
+    /// The outline moved by an offset.
+    pub fn at(&self, offset: Point) -> Outline {
+        let corners = self.corners.iter().map(|c| [c[0] + offset[0], c[1] + offset[1]]).collect();
+        Outline { corners, radius: self.radius }
+    }
+
+    /// The hull of two polygons; radii are left out.
+    pub fn joined(&self, other: &Outline) -> Outline {
+        Outline::hull(self.corners.iter().chain(&other.corners).copied().collect())
+    }
+
+    /// The lower left and the upper right corner of the box around it.
+    pub fn bounds(&self) -> (Point, Point) {
+        let along = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
+            self.corners.iter().map(|c| c[axis]).fold(start, pick)
+        };
+        let low = [0, 1].map(|a| along(a, f64::min, f64::INFINITY) - self.radius);
+        let high = [0, 1].map(|a| along(a, f64::max, f64::NEG_INFINITY) + self.radius);
+        (low, high)
+    }
+}
+
+/// What is left of a piece for the nominal position when the whole section around it must stay in:
+/// piece ⊖ Ω. `None` when that is nothing.
+pub fn shrunk(piece: &Piece, section: &Section) -> Option<Outline> {
+    match piece {
+        Piece::Polytope(polytope) => {
+            let moved = |facet: &HalfSpace| {
+                let normal: Vec<f64> = facet.normal.iter().map(Rational::to_f64).collect();
+                let offset = &facet.offset - Rational::from_f64(section.support(&normal))?;
+                Some(HalfSpace { normal: facet.normal.clone(), offset })
+            };
+            let facets: Option<Vec<HalfSpace>> = polytope.facets.iter().map(moved).collect();
+            Some(Outline::of_polytope(&Polytope::from_half_spaces(&facets?).ok()?))
+        }
+        Piece::Ball { center, spread, radius } => {
+            let numbers = |v: &[Rational]| v.iter().map(Rational::to_f64).collect::<Vec<_>>();
+            shrunk_ball(&numbers(center), &numbers(spread), radius.to_f64(), section)
+        }
+    }
+}
+
+/// The intersection of all balls around center ± spread − e for e in the section, by its distance
+/// from its middle in all directions. In space: the slice at the height of the middle, with the box
+/// around the section.
+fn shrunk_ball(center: &[f64], spread: &[f64], radius: f64, section: &Section) -> Option<Outline> {
+    let middle: Vec<f64> = center.iter().zip(&section.center).map(|(c, e)| c - e).collect();
+    let off_middle = |error: &[f64], axis: usize| {
+        error.get(axis).copied().unwrap_or(0.0) - section.center.get(axis).copied().unwrap_or(0.0)
+    };
+    let spread_at = |axis: usize| spread.get(axis).copied().unwrap_or(0.0);
+    let mut discs: Vec<(Point, f64)> = Vec::new();
+    for error in section.corners() {
+        let height = off_middle(&error, 2).abs() + spread_at(2);
+        let around = [-off_middle(&error, 0), -off_middle(&error, 1)];
+        for q in corners_of_box(&around, &[spread_at(0), spread_at(1)]) {
+            discs.push((q, radius * radius - height * height));
+        }
+    }
+    let reach = |angle: f64| {
+        let u = [angle.cos(), angle.sin()];
+        let along = discs.iter().map(|(q, square)| {
+            let ahead = q[0] * u[0] + q[1] * u[1];
+            let root = ahead * ahead - q[0] * q[0] - q[1] * q[1] + square;
+            if root < 0.0 { -1.0 } else { ahead + root.sqrt() }
+        });
+        along.fold(f64::INFINITY, f64::min)
+    };
+    let corner = |i: usize| {
+        let angle = std::f64::consts::TAU * i as f64 / ARC_CORNERS as f64;
+        let r = reach(angle);
+        (r > 0.0).then(|| [middle[0] + r * angle.cos(), middle[1] + r * angle.sin()])
+    };
+    let corners: Option<Vec<Point>> = (0..ARC_CORNERS).map(corner).collect();
+    Some(Outline { corners: corners?, radius: 0.0 })
+}
+
+/// The four corners of a box, doubled ones included.
+fn corners_of_box(center: &Point, half: &Point) -> Vec<Point> {
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| [center[0] + x * half[0], center[1] + y * half[1]])
+        .to_vec()
+}
+
+/// The first two coordinates as doubles.
+pub fn from_above(coordinates: &[Rational]) -> Point {
+    [0, 1].map(|axis| coordinates.get(axis).map_or(0.0, Rational::to_f64))
+}
+
+/// One side of the hull of sorted points, its last point left out (Andrew's monotone chain).
+fn half_hull<'a>(points: impl Iterator<Item = &'a Point>) -> Vec<Point> {
+    let mut chain: Vec<Point> = Vec::new();
+    for &p in points {
+        while let [.., a, b] = chain[..]
+            && (b[0] - a[0]) * (p[1] - a[1]) <= (b[1] - a[1]) * (p[0] - a[0])
+        {
+            chain.pop();
+        }
+        chain.push(p);
+    }
+    chain.pop();
+    chain
+}

@@ -1,0 +1,81 @@
+//! `dosmc render`: the picture of a plan that checks.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::files::OutputFile;
+use super::output::Output;
+use super::verify::{self, Examined};
+use super::{Status, png};
+use crate::back::svg;
+use crate::diag::{Diagnostic, printable};
+use crate::driver::Overrides;
+
+/// What `render --json` prints; for a plan that is refused it prints what `verify --json` does.
+#[derive(Serialize)]
+struct JsonRender {
+    /// Always `drawn`.
+    status: &'static str,
+    /// Whether the plan was made from the same source text.
+    same_text: bool,
+    /// The picture.
+    file: String,
+}
+
+/// How a picture is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Svg,
+    Png,
+}
+
+/// Draws a plan of a mission, if it checks.
+pub fn render(plan: &Path, mission: &Path, file: &Path, overrides: &Overrides, output: &Output) -> Status {
+    let prepared = format(file).and_then(|format| Ok((format, OutputFile::probe(file)?)));
+    let (format, file) = match prepared {
+        Ok(prepared) => prepared,
+        Err(problem) => return output.fail(problem),
+    };
+    match verify::examine(plan, mission, overrides, output) {
+        Ok(examined) if examined.report.holds() => {
+            draw(&examined, format, &file, output).unwrap_or_else(|status| status)
+        }
+        Ok(refused) => verify::tell(&refused, output),
+        Err(status) => status,
+    }
+}
+
+/// The format that a file's name asks for.
+///
+/// # Errors
+/// A diagnostic for any other name, and for formats that this program was built without.
+fn format(file: &Path) -> Result<Format, Diagnostic> {
+    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("svg") => Ok(Format::Svg),
+        Some("png") => png::available().map(|()| Format::Png),
+        _ => Err(super::usage(format!(
+            "`{}` is no picture that can be drawn: FILE.svg and FILE.png can",
+            printable(&file.to_string_lossy())
+        ))),
+    }
+}
+
+/// Draws the plan and says where.
+fn draw(examined: &Examined, format: Format, file: &OutputFile, output: &Output) -> Result<Status, Status> {
+    let Examined { problem, plan, report, .. } = examined;
+    let fail = |problem| output.fail(problem);
+    let text = svg::draw(problem, plan, &svg::Options::default()).contents;
+    let bytes = match format {
+        Format::Svg => text.into_bytes(),
+        Format::Png => png::from_svg(&text).map_err(fail)?,
+    };
+    let written = file.write(&bytes).map_err(fail)?.to_string_lossy().into_owned();
+    if !report.same_text {
+        output.note("warning: the plan was made from another text of the mission; it holds for this one too");
+    }
+    output.say(&format!("plan checked exactly and drawn\n  {}", printable(&written)))?;
+    output.json(&JsonRender { status: "drawn", same_text: report.same_text, file: written })?;
+    Ok(Status::Done)
+}
