@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::help;
 use super::time::parse_time;
 use crate::back::Emit;
 
@@ -19,8 +20,7 @@ use crate::back::Emit;
     long_about = "dosmc reads a mission (.dosm): a workspace, who jams it, who moves in it and how, and what must happen.\n\
 It looks for the shortest plan that holds for every disturbance allowed, on an infinite run, and checks \
 that plan again in exact arithmetic before it gives it out.",
-    after_help = "Exit status: 0 done · 1 usage or files · 2 errors in the mission · 3 no plan · 4 unknown · 5 a plan does not check\n\n\
-Start with:  dosmc new relay  &&  dosmc solve relay.dosm -o out",
+    after_long_help = help::DOSMC,
     subcommand_required = true,
     arg_required_else_help = true,
     disable_help_subcommand = true
@@ -68,9 +68,9 @@ pub struct Common {
 pub enum Color {
     /// On a terminal, unless NO_COLOR is set
     Auto,
-    /// Always
+    /// Even into a file or another program
     Always,
-    /// Never
+    /// Not even on a terminal
     Never,
 }
 
@@ -96,20 +96,14 @@ impl From<Encoding> for crate::driver::Encoding {
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Say what is wrong with missions, and how to mend it
-    #[command(after_help = "Tubes are computed and the start is looked at too; nothing is searched for. \
-Exit status: 0 no errors, 1 a file can't be read, 2 errors.")]
+    #[command(display_order = 2, after_long_help = help::CHECK)]
     Check {
         /// The missions; `-` is standard input
         #[arg(required = true, value_name = "MISSION")]
         missions: Vec<PathBuf>,
     },
     /// Write a mission in other tools' formats
-    #[command(
-        after_help = "DIR gets NAME.ir.json (`ir`: the mission with exact numbers, names resolved, families \
-written out). All files are written whole, or none is.\n\n\
-Exit status: 0 written, 1 usage or files, 2 errors in the mission, 4 time ran out first.\n\n\
-Example:  dosmc compile examples/relay.dosm -o out --emit ir"
-    )]
+    #[command(display_order = 5, after_long_help = help::COMPILE)]
     Compile {
         /// The mission; `-` is standard input
         mission: PathBuf,
@@ -124,12 +118,7 @@ Example:  dosmc compile examples/relay.dosm -o out --emit ir"
         length: Option<usize>,
     },
     /// Look for the shortest plan, check it exactly, and write it down
-    #[command(
-        after_help = "DIR gets plan.json, the plan with a witness for everything that it claims, and plan.svg, its \
-picture. They are written whole or not at all, and only for a plan that was checked.\n\n\
-Exit status: 0 plan found and checked, 1 usage or files, 2 errors in the mission, 3 no plan, 4 unknown, 5 the plan found \
-does not check.\n\nExample:  dosmc solve examples/paper/fig2-4.dosm -o out --set robots=4 --timeout 1min"
-    )]
+    #[command(display_order = 3, after_long_help = help::SOLVE)]
     Solve {
         /// The mission; `-` is standard input
         mission: PathBuf,
@@ -141,11 +130,7 @@ does not check.\n\nExample:  dosmc solve examples/paper/fig2-4.dosm -o out --set
         encoding: Encoding,
     },
     /// Check a plan against its mission, in exact arithmetic, believing nothing
-    #[command(
-        after_help = "Give the same `--set`s as when the plan was made. The verdict comes from the checks alone; that \
-the mission's text has changed since is only said (`same_text` with --json).\n\n\
-Exit status: 0 the plan holds, 1 usage or files, 2 errors in the mission, 5 the plan is refused."
-    )]
+    #[command(display_order = 4, after_long_help = help::VERIFY)]
     Verify {
         /// The plan, a `plan.json`
         plan: PathBuf,
@@ -168,23 +153,25 @@ Exit status: 0 drawn, 1 usage or files, 2 errors in the mission, 5 the plan is r
         output: PathBuf,
     },
     /// Write a starter mission, NAME.dosm
-    #[command(after_help = "The mission is small, complete and explained line by line; \
-`dosmc solve NAME.dosm -o out` plans it.")]
+    #[command(display_order = 1, after_long_help = help::NEW)]
     New {
         /// The mission's name: letters, digits and `_`
         name: String,
     },
     /// Explain a diagnostic: what it means, why it matters, and how to mend it
+    #[command(display_order = 7, after_long_help = help::EXPLAIN)]
     Explain {
         /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; none: list all
         code: Option<String>,
     },
     /// Print a script that completes commands and flags in a shell
+    #[command(display_order = 8, after_long_help = help::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
     },
     /// Print the manual page, or write the manual
+    #[command(display_order = 9, after_long_help = help::MAN)]
     Man {
         /// Where to write dosmc.1 and a page for each command; created where needed
         #[arg(short, long, value_name = "DIR")]

@@ -51,11 +51,43 @@ fn pages() -> Vec<Artifact> {
 }
 
 fn page(command: &Command) -> Artifact {
-    let man = Man::new(command.clone())
-        .source(format!("{NAME} {}", env!("CARGO_PKG_VERSION")))
-        .manual("Plans for teams of robots");
+    let version = env!("CARGO_PKG_VERSION");
+    let man =
+        Man::new(command.clone()).source(format!("{NAME} {version}")).manual("Plans for teams of robots");
+    let help = command.get_after_long_help().map(|help| help.to_string()).unwrap_or_default();
+    let first = help.lines().position(is_heading).unwrap_or(usize::MAX);
     let mut roff = Vec::new();
     // Writing to memory can't fail.
-    let _ = man.render(&mut roff);
+    let _ = man.render_title(&mut roff);
+    let _ = man.render_name_section(&mut roff);
+    let _ = man.render_synopsis_section(&mut roff);
+    let _ = man.render_description_section(&mut roff);
+    std::iter::once("").chain(help.lines().take(first)).for_each(|line| set(line, &mut roff));
+    let _ = man.render_options_section(&mut roff);
+    if command.has_subcommands() {
+        let _ = man.render_subcommands_section(&mut roff);
+    }
+    help.lines().skip(first).for_each(|line| set(line, &mut roff));
     Artifact { name: man.get_filename(), contents: String::from_utf8_lossy(&roff).into_owned() }
+}
+
+/// Whether a line of [`help`](super::help) is a heading.
+fn is_heading(line: &str) -> bool {
+    line.ends_with(':') && !line.starts_with(' ')
+}
+
+/// Sets a line of [`help`](super::help): a heading as a section's, an example or a line with columns
+/// by itself, all else as running text.
+fn set(line: &str, roff: &mut Vec<u8>) {
+    let text = line.trim_start();
+    let escaped = text.replace('\\', "\\e").replace('-', "\\-");
+    let apart = line.starts_with("  dosmc ") || text.contains("  ");
+    // `\&` keeps a line that begins with a dot from being a request.
+    let set = match line.strip_suffix(':').filter(|_| is_heading(line)) {
+        Some(heading) => format!(".SH {}\n", heading.to_uppercase()),
+        None if line.is_empty() => ".PP\n".to_string(),
+        None if apart => format!(".nf\n\\&{escaped}\n.fi\n"),
+        None => format!("\\&{escaped}\n"),
+    };
+    roff.extend_from_slice(set.as_bytes());
 }

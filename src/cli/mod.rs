@@ -11,6 +11,7 @@ mod compile;
 mod completions;
 mod explain;
 mod files;
+mod help;
 mod mission;
 mod new;
 mod output;

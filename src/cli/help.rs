@@ -1,0 +1,162 @@
+//! What `--help` teaches below the flags: examples, exit statuses, and where to go next.
+//!
+//! A line without indentation that ends in a colon is a heading; the manual's pages make a section of
+//! it. Every example works from the repository root, those of one text in their order
+//! (`tests/help.rs` runs them all).
+
+/// The whole command.
+pub const DOSMC: &str = "\
+A first plan:
+  dosmc new relay                         # writes relay.dosm, explained line by line
+  dosmc check relay.dosm                  # says what is wrong with it, and how to mend it
+  dosmc solve relay.dosm -o out           # writes out/plan.json and out/plan.svg
+  dosmc verify out/plan.json relay.dosm   # checks the plan once more, believing nothing
+
+Exit status:
+  0  done; for `solve`, a plan was found and checked
+  1  usage, or a file that can't be read or written
+  2  the mission has errors
+  3  no plan of any length in the horizon
+  4  unknown: time, memory or numerics ran out first
+  5  a plan does not check
+
+Where to go next:
+  `dosmc COMMAND --help` has examples of each command, `dosmc explain CODE` a page on each
+  error, the directory examples/ a mission for each part of the language.";
+
+/// `check`.
+pub const CHECK: &str = "\
+Everything is looked at that needs no search: the text, names and units, shapes, the tubes
+that keep disturbances away, and each robot's start. As many errors as can be found are
+reported in one run. Warnings do not change the exit status.
+
+Examples:
+  dosmc check examples/first.dosm
+  dosmc check examples/paper/*.dosm
+  dosmc check examples/paper/table1-4.dosm --set bases=2
+  dosmc check --json - < examples/first.dosm
+
+Exit status:
+  0  no errors
+  1  usage, or a mission can't be read
+  2  a mission has errors
+
+Where to go next:
+  `dosmc explain CODE` says more about an error, with a mission that shows it and the mended
+  one; `dosmc solve` plans a mission that has none.";
+
+/// `solve`.
+pub const SOLVE: &str = "\
+The lengths of the mission's `horizon` are tried from the shortest up. DIR gets plan.json,
+the plan with a witness for everything that it claims, and plan.svg, its picture: whole or
+not at all, and only for a plan that the exact checker has accepted. Ctrl-C stops within a
+second and says what was reached.
+
+Examples:
+  dosmc solve examples/first.dosm -o out
+  dosmc solve examples/paper/table1-4.dosm -o out --set bases=2
+  dosmc solve examples/relay.dosm -o out --horizon 1..30 --timeout 1min
+  dosmc solve examples/patrol.dosm -o out --json
+
+Exit status:
+  0  a plan was found and checked (--json: `shortest` if none is shorter)
+  1  usage, or a file can't be read or written
+  2  the mission has errors
+  3  no plan of any length in the horizon, for the tubes and directions tried
+  4  unknown: time, memory or numerics ran out first
+  5  the plan found does not check
+
+Where to go next:
+  `dosmc verify out/plan.json MISSION` checks the plan again, on any machine. With no plan, try
+  a longer --horizon, and the mission without its goals one after the other.";
+
+/// `verify`.
+pub const VERIFY: &str = "\
+The checker knows the plan and the mission, and nothing of how the plan was found. It needs
+no solver: every claim in the plan comes with its witness, and all arithmetic is exact.
+Give the same --set as when the plan was made. That the mission's text has changed since is
+only said (`same_text` with --json); the verdict comes from the checks alone.
+
+Examples:
+  dosmc solve examples/relay.dosm -o out && dosmc verify out/plan.json examples/relay.dosm
+  dosmc verify out/plan.json examples/relay.dosm --json
+
+Exit status:
+  0  the plan holds
+  1  usage, or a file can't be read
+  2  the mission has errors
+  5  the plan does not check; the first failures are listed";
+
+/// `compile`.
+pub const COMPILE: &str = "\
+DIR gets a file for each format: NAME.ir.json (`ir`) is the mission with exact numbers, all
+names resolved and families written out, for tools of your own; docs/schemas describes it.
+All files are written whole, or none is.
+
+Examples:
+  dosmc compile examples/relay.dosm -o out --emit ir
+
+Exit status:
+  0  written
+  1  usage, or a file can't be read or written
+  2  the mission has errors
+  4  unknown: time ran out first";
+
+/// `new`.
+pub const NEW: &str = "\
+The mission is small and complete: a scout has to visit a place again and again, around a
+jammer, and a second robot relays for it. Every line is explained. A file that is there
+already is left alone.
+
+Examples:
+  dosmc new patrol && dosmc solve patrol.dosm -o out
+
+Exit status:
+  0  written
+  1  usage, not a name, or the file is there already
+
+Where to go next:
+  examples/first.dosm is smaller still; the others in examples/ each show one part of the
+  language.";
+
+/// `explain`.
+pub const EXPLAIN: &str = "\
+A page has the meaning in plain words, what would go wrong otherwise, a mission that shows
+the error, and the mended mission. The code may be shortened to `check::duplicate`, or to
+`duplicate` where no other phase has that name. Without a code all are listed.
+
+Examples:
+  dosmc explain dosm::check::unknown_region
+  dosmc explain weak_inputs
+  dosmc explain | grep unit
+  dosmc explain --json duplicate
+
+Exit status:
+  0  explained
+  1  no such code; the nearest ones are named";
+
+/// `completions`.
+pub const COMPLETIONS: &str = "\
+Put the script where your shell looks for it, or read it in when the shell starts.
+
+Examples:
+  dosmc completions bash > dosmc.bash   # read it in with `source dosmc.bash`
+  dosmc completions zsh > _dosmc        # belongs into a directory of $fpath
+  dosmc completions fish > dosmc.fish   # belongs into ~/.config/fish/completions
+
+Exit status:
+  0  printed
+  1  usage";
+
+/// `man`.
+pub const MAN: &str = "\
+Without -o the page of `dosmc` itself is printed; with it DIR gets dosmc.1 and a page for
+each command, such as dosmc-solve.1.
+
+Examples:
+  dosmc man | man -l -
+  dosmc man -o man/man1 && man -M man dosmc-solve
+
+Exit status:
+  0  printed or written
+  1  usage, or a file can't be written";
