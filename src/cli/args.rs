@@ -138,11 +138,7 @@ pub enum Command {
         mission: PathBuf,
     },
     /// Draw a plan: the workspace, every robot's way and tube, and the links at chosen moments
-    #[command(
-        after_help = "The plan is checked first, as `verify` does it; give the same `--set`s as when it was made. FILE.png \
-needs a dosmc built with `--features png`.\n\n\
-Exit status: 0 drawn, 1 usage or files, 2 errors in the mission, 5 the plan is refused."
-    )]
+    #[command(display_order = 6, after_long_help = help::RENDER)]
     Render {
         /// The plan, a `plan.json`
         plan: PathBuf,

@@ -78,7 +78,8 @@ Give the same --set as when the plan was made. That the mission's text has chang
 only said (`same_text` with --json); the verdict comes from the checks alone.
 
 Examples:
-  dosmc solve examples/relay.dosm -o out && dosmc verify out/plan.json examples/relay.dosm
+  dosmc solve examples/relay.dosm -o out
+  dosmc verify out/plan.json examples/relay.dosm
   dosmc verify out/plan.json examples/relay.dosm --json
 
 Exit status:
@@ -86,6 +87,22 @@ Exit status:
   1  usage, or a file can't be read
   2  the mission has errors
   5  the plan does not check; the first failures are listed";
+
+/// `render`.
+pub const RENDER: &str = "\
+The plan is checked first, as `verify` does it; give the same --set as when it was made.
+The name of FILE says what is drawn: .svg for every browser, .png where dosmc was built
+with `--features png`.
+
+Examples:
+  dosmc solve examples/relay.dosm -o out
+  dosmc render out/plan.json examples/relay.dosm -o relay.svg
+
+Exit status:
+  0  drawn
+  1  usage, or a file can't be read or written
+  2  the mission has errors
+  5  the plan does not check";
 
 /// `compile`.
 pub const COMPILE: &str = "\
