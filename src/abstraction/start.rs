@@ -139,7 +139,7 @@ impl<'a> Start<'a> {
             "dosm::abstraction::start_outside_bound",
             format!("`{}` may break the bound of `{name}` at its start", self.robot.name),
             self.span,
-            format!("with the tube, `{name}` lies anywhere from {} to {}", short(below), short(above)),
+            format!("with the tube, `{name}` lies anywhere from {} to {}", short_below(below), short(above)),
         );
         let diagnostic = match bound {
             Some(span) => diagnostic.with_label(*span, "the bound"),
@@ -250,9 +250,18 @@ fn too_close(
     diagnostic.with_help(format!("move them apart by another {missing} m along one axis"))
 }
 
-/// A number for people: four digits or so.
+/// A number for people: four digits behind the point or so, rounded up.
 pub(super) fn short(x: &Rational) -> String {
-    let rounded = (x * Rational::from(10_000)).ceil() / Rational::from(10_000);
+    of_ten_thousandths(x, (x * Rational::from(10_000)).ceil())
+}
+
+/// As [`short`], rounded down.
+fn short_below(x: &Rational) -> String {
+    of_ten_thousandths(x, (x * Rational::from(10_000)).floor())
+}
+
+fn of_ten_thousandths(x: &Rational, rounded: Rational) -> String {
+    let rounded = rounded / Rational::from(10_000);
     if x.is_integer() || rounded.is_zero() { format!("{}", x.to_f64()) } else { rounded.to_string() }
 }
 

@@ -341,7 +341,7 @@ impl Checker<'_> {
         let sign = match inequality.op {
             Comparison::LessEqual => Rational::ONE,
             Comparison::GreaterEqual => Rational::from(-1),
-            _ => return Err(self.report(messages::open_inequality(inequality.op_span))),
+            op => return Err(self.report(messages::open_inequality(inequality.op_span, op))),
         };
         let count = scope.coordinates.len();
         let slope = |v: &Value, i: usize| v.slopes.get(i).cloned().unwrap_or_default();

@@ -29,6 +29,7 @@ pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
     let message = format!("a path to a base has at least one link, not {hops}");
     let message = if hops < 1 { message } else { format!("{hops} links are too many") };
     Diagnostic::error("dosm::check::bad_hops", message, span, "not a number of links")
+        .with_help("leave `hops` out to allow any number; `connectivity none` asks for no links at all")
 }
 
 pub(in crate::check) fn bad_redundancy(span: Span, lost: i64, most: i64) -> Diagnostic {

@@ -7,7 +7,7 @@ use crate::exact::Rational;
 use crate::geometry::ShapeError;
 use crate::ir::BlockerKind;
 use crate::source::Span;
-use crate::syntax::ast::{Inequality, Point};
+use crate::syntax::ast::{Comparison, Inequality, Point};
 
 pub(in crate::check) fn missing_workspace(span: Span) -> Diagnostic {
     let end = Span { start: span.end, end: span.end };
@@ -171,9 +171,15 @@ pub(in crate::check) fn no_coordinate(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::check::no_coordinate", message, span, "always or never true")
 }
 
-pub(in crate::check) fn open_inequality(span: Span) -> Diagnostic {
+pub(in crate::check) fn open_inequality(span: Span, op: Comparison) -> Diagnostic {
     let message = "shapes are closed sets: only `<=` and `>=` make a half-space";
+    let help = match op {
+        Comparison::Less => "write `<=`",
+        Comparison::Greater => "write `>=`",
+        _ => "two inequalities with some room between them make a strip",
+    };
     Diagnostic::error("dosm::check::open_inequality", message, span, "not a closed half-space")
+        .with_help(help)
 }
 
 fn outside(code: &'static str, message: String, span: Span, workspace: Span) -> Diagnostic {
