@@ -20,7 +20,7 @@ pub fn completions(shell: Shell, output: &Output) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Args::command(), NAME, &mut script);
     let script = String::from_utf8_lossy(&script);
-    output.result(script.trim_end(), &json!({"shell": shell.to_string(), "script": script}))
+    output.result(script.trim_end(), &json!({"status": "done", "shell": shell.to_string(), "script": script}))
 }
 
 /// Prints the manual's first page, or writes all of them: one for the command and one for each of its
@@ -29,12 +29,14 @@ pub fn man(directory: Option<&Path>, output: &Output) -> Status {
     let pages = pages();
     let Some(directory) = directory else {
         let page = pages.first().map_or("", |page| page.contents.as_str());
-        return output.result(page.trim_end(), &json!({"page": page}));
+        return output.result(page.trim_end(), &json!({"status": "done", "page": page}));
     };
     match files::OutputDirectory::probe(directory).and_then(|place| place.write(&pages)) {
         Ok(written) => {
             let lines: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
-            let said = output.say(&lines.join("\n")).and_then(|()| output.json(&json!({"written": lines})));
+            let said = output
+                .say(&lines.join("\n"))
+                .and_then(|()| output.json(&json!({"status": "done", "written": lines})));
             said.err().unwrap_or(Status::Done)
         }
         Err(problem) => output.fail(problem),

@@ -7,20 +7,32 @@ use super::output::{Output, plain_error};
 use crate::diag::{Diagnostic, printable};
 use crate::explain::{self, Found, PAGES, Page};
 
-/// A page as `explain --json` prints it.
+/// What `explain --json` prints of a code.
 #[derive(Serialize)]
 struct JsonPage {
+    /// Always `done`.
+    status: &'static str,
     code: &'static str,
+    /// The page's headline.
     title: &'static str,
     /// The whole page, in Markdown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    page: Option<&'static str>,
+    page: &'static str,
 }
 
-/// What `explain --json` without a code prints.
+/// What `explain --json` prints without a code.
 #[derive(Serialize)]
 struct JsonList {
-    codes: Vec<JsonPage>,
+    /// Always `done`.
+    status: &'static str,
+    codes: Vec<JsonCode>,
+}
+
+/// A code in the list.
+#[derive(Serialize)]
+struct JsonCode {
+    code: &'static str,
+    /// The headline of its page.
+    title: &'static str,
 }
 
 /// Prints a code's page, or the list of all codes.
@@ -29,7 +41,8 @@ pub fn explain(code: Option<&str>, output: &Output) -> Status {
     match explain::find(code) {
         Found::Page(page) => {
             let drawn = explain::draw(page.text, output.result_style);
-            output.result(drawn.trim_end(), &json(page, Some(page.text)))
+            let (code, title) = (page.code, page.headline());
+            output.result(drawn.trim_end(), &JsonPage { status: "done", code, title, page: page.text })
         }
         Found::Several(pages) => output.fail(ambiguous(code, &pages)),
         Found::None(near) => output.fail(unknown(code, &near)),
@@ -40,11 +53,8 @@ fn list(output: &Output) -> Status {
     let widest = PAGES.iter().map(|page| page.code.len()).max().unwrap_or(0);
     let lines = PAGES.iter().map(|page| format!("{:widest$}  {}", page.code, page.headline()));
     let text = lines.collect::<Vec<_>>().join("\n");
-    output.result(&text, &JsonList { codes: PAGES.iter().map(|page| json(page, None)).collect() })
-}
-
-fn json(page: &Page, text: Option<&'static str>) -> JsonPage {
-    JsonPage { code: page.code, title: page.headline(), page: text }
+    let codes = PAGES.iter().map(|page| JsonCode { code: page.code, title: page.headline() }).collect();
+    output.result(&text, &JsonList { status: "done", codes })
 }
 
 fn unknown(code: &str, near: &[&Page]) -> Diagnostic {
