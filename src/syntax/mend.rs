@@ -81,13 +81,18 @@ pub(super) fn help(case: &Case) -> Option<String> {
         ";" if ends => "declarations are not followed by `;`",
         "[" if case.before().ends_with('[') => "rows are separated by `;`: `[1, 0; 0, 1]`",
         "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
+        "," if case.failure.expects(Rule::kw_radius) => "no comma stands before `radius`",
+        "not" if case.failure.expects(Rule::kw_in) => "`not` stands before the robot: `not R1 in A`",
+        "=" | "!=" | "<" | "<=" | ">" | ">=" if case.follows_atom() => {
+            "a compared atom needs brackets: `(R1 in A) = 1`"
+        }
         word if is_reserved(word) && case.failure.expects_name() => {
             return Some(match error::operator_word(word) {
                 Some(operator) => format!("`{word}` stands for `{operator}` and can't be a name"),
                 None => "it is a word of the language and can't be a name".to_owned(),
             });
         }
-        word if is_word(word) => return case.nearest_keyword().map(|near| format!("did you mean `{near}`?")),
+        word if is_word(word) => return case.help_for_word(),
         _ => return None,
     };
     Some(text.to_owned())
@@ -112,6 +117,27 @@ impl Case<'_> {
     fn place_of_last(&self, length: usize) -> Span {
         let end = self.before().len();
         (self.place)(end.saturating_sub(length), end)
+    }
+
+    /// Whether the found token stands behind `ROBOT in REGION`.
+    fn follows_atom(&self) -> bool {
+        let mut words = self.before().rsplit(char::is_whitespace);
+        self.failure.expects(Rule::connective) && words.nth(1) == Some("in")
+    }
+
+    /// A mend for a word that is no word of the language.
+    fn help_for_word(&self) -> Option<String> {
+        let near = self.nearest_keyword();
+        let number_before = self.before().ends_with(|c: char| c.is_ascii_digit());
+        // `5 feet` is not meant to begin with `let`.
+        let unlike = near.as_ref().is_none_or(|near| 3 * distance(self.found, near) > self.found.len());
+        if unlike && number_before && self.failure.expects(Rule::unit) {
+            return Some(format!("the units are {}", UNITS.join(", ")));
+        }
+        if near.is_none() && [Rule::shape, Rule::piece].iter().any(|r| self.failure.expects(*r)) {
+            return Some("the shapes are `box`, `ball`, `disc`, `polygon`, `hull` and `where`".to_owned());
+        }
+        near.map(|near| format!("did you mean `{near}`?"))
     }
 
     /// The keyword that would fit and is spelt nearly like the found word.

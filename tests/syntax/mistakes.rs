@@ -55,6 +55,18 @@ fn what_was_expected_is_said_in_peoples_words() {
 }
 
 #[test]
+fn what_is_usual_elsewhere_is_answered_with_what_is_usual_here() {
+    check("jammer a = ball (0, 0) radius 5 feet", "expected", "feet", "the units are m, cm,");
+    check("jammer a = ball (0, 0) radius 5 ft", "expected", "ft", "the units are m, cm,");
+    check("jammer a = ball (0, 0) radius 5 nrom 2", "expected", "nrom", "did you mean `norm`?");
+    check("horizon 1..5\nregoin a = hull (1, 1)", "expected", "regoin", "did you mean `region`?");
+    check("region a = circle (0, 0) radius 1", "expected", "circle", "the shapes are `box`");
+    check("jammer a = ball (0, 0), radius 5", "expected", ",", "no comma stands before `radius`");
+    check("goal g: R1 not in a", "expected", "not", "`not R1 in A`");
+    check("goal g: R1 in a = 1", "expected", "=", "`(R1 in A) = 1`");
+}
+
+#[test]
 fn reserved_words_are_no_names() {
     check("region base = hull (1, 1)", "reserved_word", "base", "`base`");
     check("robot R: Rover at (1, 1)", "reserved_word", "R", "operator");
