@@ -20,10 +20,11 @@ pub fn grid(canvas: &mut Canvas, layout: &Layout) {
 }
 
 /// Draws tick marks, numbers, what is along the axes, and the scale bar; all of them keep labels off.
-pub fn draw(canvas: &mut Canvas, layout: &Layout, places: &mut Places) {
+pub fn draw(canvas: &mut Canvas, layout: &Layout, spatial: bool, places: &mut Places) {
     let (view, [w, h]) = (&layout.main, layout.main.size);
     let (x, bottom) = (view.corner.0, view.corner.1 + h);
-    let mut marks = String::new();
+    // The edges, for a workspace that does not reach all of them.
+    let mut marks = format!("M{} {}v{}h{}", px(x), px(view.corner.1), px(h), px(w));
     for (value, number) in ticks(view.low[0], w / view.scale, w) {
         let at = view.pixel([value, 0.0]).0;
         marks += &format!("M{} {}v5", px(at), px(bottom));
@@ -36,7 +37,8 @@ pub fn draw(canvas: &mut Canvas, layout: &Layout, places: &mut Places) {
     }
     canvas.path("tickmark", &marks);
     let row = bottom + layout.air[1] + 40.0;
-    small(canvas, places, (x, row), "tick", "x, y in metres", 0.0);
+    let axes = if spatial { "x, y in metres; z is not shown" } else { "x, y in metres" };
+    small(canvas, places, (x, row), "tick", axes, 0.0);
     scale_bar(canvas, layout, places, row);
 }
 
@@ -55,7 +57,7 @@ fn scale_bar(canvas: &mut Canvas, layout: &Layout, places: &mut Places, row: f64
     let number = format!("{} m", number(metres, decimals));
     let width = text::width(&number, SMALL, false);
     let right =
-        (layout.main.corner.0 + layout.main.size[0]).max(layout.main.corner.0 + 130.0 + length + width);
+        (layout.main.corner.0 + layout.main.size[0]).max(layout.main.corner.0 + 215.0 + length + width);
     let left = right - length;
     let y = row - 4.5;
     canvas.path("bar", &format!("M{} {}v8m0 -4h{}m0 -4v8", px(left), px(y - 4.0), px(length)));

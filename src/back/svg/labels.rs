@@ -133,8 +133,10 @@ pub fn around(at: Pixel, w: f64, h: f64, distances: &[f64]) -> Vec<(Rect, f64)> 
     boxes
 }
 
-/// Boxes in and around a box: its middle, its edges from inside, then from outside.
-pub fn about(target: &Rect, w: f64, h: f64) -> Vec<(Rect, f64)> {
+/// Boxes in and around a box: its middle, its edges from inside, then from outside. What lies inside
+/// and would hide more than half of a box that is `solid` comes last.
+pub fn about(target: &Rect, w: f64, h: f64, solid: bool) -> Vec<(Rect, f64)> {
+    let hidden = if solid && (w > 0.6 * target.w || h > 0.6 * target.h) { 5.0 } else { 0.0 };
     let (x, y) = target.middle();
     let inside = [
         (0.0, 0.0),
@@ -149,13 +151,17 @@ pub fn about(target: &Rect, w: f64, h: f64) -> Vec<(Rect, f64)> {
     ];
     let room = (target.w - w - 8.0, target.h - h - 8.0);
     let mut boxes = Vec::new();
+    if room.0 < 0.0 && room.1 >= 0.0 && room.0 > -0.5 * w {
+        // A little too long: rather across its own edges than elsewhere.
+        boxes.push((Rect::around((x, y), w, h), hidden));
+    }
     if room.0 >= 0.0 && room.1 >= 0.0 {
         for (rank, (sx, sy)) in inside.iter().enumerate() {
             let middle = (x + sx * room.0 / 2.0, y + sy * room.1 / 2.0);
-            boxes.push((Rect::around(middle, w, h), rank as f64 * 0.2));
+            boxes.push((Rect::around(middle, w, h), hidden + rank as f64 * 0.2));
         }
     }
-    for (ring, gap) in [4.0, 14.0, 28.0, 48.0].into_iter().enumerate() {
+    for (ring, gap) in [4.0, 14.0, 28.0, 44.0, 62.0].into_iter().enumerate() {
         for (rank, (sx, sy)) in [
             (0.0, -1.0),
             (0.0, 1.0),

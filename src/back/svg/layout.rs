@@ -23,9 +23,11 @@ const NARROWEST: f64 = 500.0;
 /// A panel lower or narrower than this gets air around it for its labels.
 const THIN: f64 = 130.0;
 /// That air.
-const AIR: f64 = 44.0;
+const AIR: f64 = 60.0;
 /// A panel narrower than this has its legend beside it.
 const BESIDE: f64 = 260.0;
+/// How many moments are shown.
+pub const MOMENTS: usize = 4;
 /// Space between small panels.
 pub const GAP: f64 = 14.0;
 /// A small panel is at most so high.
@@ -65,14 +67,10 @@ impl Layout {
         let beside = size[0] < BESIDE;
         let legend = if beside { (right + 24.0, top) } else { (MARGIN, bottom + 8.0) };
         let aspect = extent[0] / extent[1];
-        let columns = if aspect > 4.0 {
-            1
-        } else if aspect > 1.45 {
-            2
-        } else if aspect > 0.6 {
-            4
-        } else {
-            6
+        let columns = match aspect {
+            a if a > 4.0 => 1,
+            a if a > 1.45 => 2,
+            _ => 4,
         };
         let width = if beside { width.max(legend.0 + 230.0) } else { width };
         Layout { width, main, air, legend, legend_width: width - legend.0 - MARGIN, columns }
@@ -81,11 +79,6 @@ impl Layout {
     /// The lower edge of the main panel with its axis.
     pub fn main_bottom(&self) -> f64 {
         self.main.corner.1 + self.main.size[1] + self.air[1] + AXIS
-    }
-
-    /// How many moments are shown.
-    pub fn moments(&self) -> usize {
-        self.columns.max(4)
     }
 
     /// The small panels of so many moments below `top`, and where they end.

@@ -14,8 +14,8 @@ const MOST_ROBOTS: usize = 24;
 /// Pixels a row.
 const ROW: f64 = 23.0;
 /// A swatch's width, and where its text begins.
-const SWATCH: f64 = 34.0;
-const TEXT: f64 = 42.0;
+const SWATCH: f64 = 32.0;
+const TEXT: f64 = 39.0;
 
 /// One entry.
 struct Entry {
@@ -54,7 +54,8 @@ pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, with_links: boo
     let (left, top) = layout.legend;
     let room = layout.legend_width;
     let mut y = top;
-    for entries in [robots(scene), moving(scene, with_links), still(scene)] {
+    let marks = [moving(scene, with_links), still(scene)].into_iter().flatten().collect();
+    for entries in [robots(scene), marks] {
         let mut x = left;
         for entry in &entries {
             let short = text::cut(&entry.text, FONT, false, room - TEXT);
@@ -65,7 +66,8 @@ pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, with_links: boo
             }
             swatch(canvas, (x, y + ROW / 2.0), &entry.swatch);
             canvas.text((x + TEXT, y + ROW / 2.0 + 0.36 * FONT), "", &short);
-            x += width + 18.0;
+            // What is measured is a bound: with most fonts a tenth of it stays empty.
+            x += (0.92 * width).max(width - 11.0) + 14.0;
         }
         if !entries.is_empty() {
             y += ROW;
@@ -103,7 +105,7 @@ fn moving(scene: &Scene, with_links: bool) -> Vec<Entry> {
     }
     add(Swatch::Tube, "where it can be");
     if with_links {
-        add(Swatch::Link, "radio link, wherever its ends are");
+        add(Swatch::Link, "radio link");
     }
     entries
 }
@@ -124,10 +126,12 @@ fn still(scene: &Scene) -> Vec<Entry> {
     }
     let several = scene.tubes.len() > 1;
     let whose = |index: usize| if several { format!(" of {}", scene.tubes[index]) } else { String::new() };
+    let jammed = scene.blockers.iter().any(|(kind, _)| *kind == BlockerKind::Jammer);
     if !scene.blockers.is_empty() {
         for index in 0..scene.tubes.len() {
+            let class = if jammed { "grown jam" } else { "grown" };
             add(
-                Swatch::Grown(format!("grown t{}", index % 3)),
+                Swatch::Grown(format!("{class} t{}", index % 3)),
                 &format!("grown by the tube{}", whose(index)),
             );
         }
@@ -184,7 +188,10 @@ fn swatch(canvas: &mut Canvas, (x, y): Pixel, swatch: &Swatch) {
         Swatch::Base => canvas.path("base", &mark::mast(middle, mark::MAST)),
         Swatch::Box(class) => canvas.path(class, &boxed(x, y, SWATCH, 16.0)),
         Swatch::Grown(class) => {
-            canvas.add(&format!(r#"<g class="kept"><path d="{}"/></g>"#, boxed(x, y, SWATCH, 16.0)));
+            canvas.add(&format!(
+                r#"<g class="kept"><path class="{class}" d="{}"/></g>"#,
+                boxed(x, y, SWATCH, 16.0)
+            ));
             canvas.path(class, &boxed(x, y, SWATCH, 16.0));
         }
     }

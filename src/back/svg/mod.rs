@@ -33,7 +33,7 @@ use crate::ir::Problem;
 use crate::plan::Plan;
 use canvas::{Canvas, px};
 use labels::{Places, Rect};
-use layout::{FONT, Layout, MARGIN};
+use layout::{FONT, Layout, MARGIN, MOMENTS};
 use scene::Scene;
 use text::escape;
 
@@ -56,7 +56,7 @@ pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
     let mut canvas = Canvas::default();
     title(&mut canvas, &layout, &scene);
     main_panel(&mut canvas, &layout, &scene, options);
-    let moments = moments::choose(&scene, layout.moments());
+    let moments = moments::choose(&scene, MOMENTS);
     let with_links = moments.iter().any(|m| !scene.links(m.step).is_empty());
     let bottom = legend::draw(&mut canvas, &layout, &scene, with_links).max(layout.main_bottom());
     let bottom = panels::draw(&mut canvas, &layout, &scene, &moments, bottom + 14.0);
@@ -89,11 +89,12 @@ fn main_panel(canvas: &mut Canvas, layout: &Layout, scene: &Scene, options: &Opt
     stills::bases(canvas, view, scene, mark::MAST);
     ways::draw(canvas, view, scene);
     let mut places = Places::new(label_area(layout));
-    axes::draw(canvas, layout, &mut places);
+    axes::draw(canvas, layout, scene.problem.dimension > 2, &mut places);
     stills::keep_visible(view, scene, &mut places);
     ways::keep_visible(view, scene, &mut places);
+    stills::blocker_names(canvas, view, scene, &mut places);
     ways::names(canvas, view, scene, &mut places);
-    stills::names(canvas, view, scene, &mut places);
+    stills::other_names(canvas, view, scene, &mut places);
     ways::numbers(canvas, view, scene, &mut places);
 }
 

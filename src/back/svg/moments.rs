@@ -67,7 +67,7 @@ fn what(scene: &Scene, step: usize) -> Vec<String> {
         arrived.filter_map(|(r, robot)| Some(format!("{} in {}", robot.name, scene.arrival(r, step)?))),
     );
     if all.is_empty() {
-        all.push("other links".into());
+        all.push("the links change".into());
     }
     all
 }

@@ -33,7 +33,7 @@ fn caption(what: &[String], room: f64) -> String {
 }
 
 fn panel(canvas: &mut Canvas, view: &View, scene: &Scene, step: usize) {
-    canvas.add(&format!("<svg {}>", view.window()));
+    canvas.add(&format!("<svg class=\"small\" {}>", view.window()));
     stills::draw(canvas, view, scene, false);
     for (index, robot) in scene.robots.iter().enumerate() {
         let so_far = &robot.points[..(step + 1).min(robot.points.len())];

@@ -20,8 +20,9 @@ pub fn draw(canvas: &mut Canvas, view: &View, scene: &Scene, copies: bool) {
         }
         // One group for all that has grown: where they overlap it is no darker.
         canvas.add(r#"<g class="kept">"#);
-        for (_, blocker) in &scene.blockers {
-            blocker.copies.iter().flatten().for_each(|piece| canvas.path("", &view.path(piece)));
+        for (kind, blocker) in &scene.blockers {
+            let class = if *kind == BlockerKind::Jammer { "jam" } else { "" };
+            blocker.copies.iter().flatten().for_each(|piece| canvas.path(class, &view.path(piece)));
         }
         canvas.add("</g>");
     }
@@ -72,7 +73,7 @@ fn draw_copies(canvas: &mut Canvas, view: &View, still: &Still, class: &str) {
     }
 }
 
-/// Makes labels pay for covering marks and edges.
+/// Keeps labels off bases, and makes them pay for covering edges.
 pub fn keep_visible(view: &View, scene: &Scene, places: &mut Places) {
     for (_, at) in &scene.bases {
         places.block(Rect::around(view.pixel(*at), 2.0 * mark::MAST, 2.0 * mark::MAST));
@@ -83,6 +84,12 @@ pub fn keep_visible(view: &View, scene: &Scene, places: &mut Places) {
             edge(view, piece).windows(2).for_each(|pair| places.line(pair[0], pair[1], price));
         }
     }
+    edge(view, &scene.workspace).windows(2).for_each(|pair| places.line(pair[0], pair[1], 0.8));
+}
+
+/// Makes other labels pay for standing in a shape.
+fn keep_to_itself(view: &View, still: &Still, price: f64, places: &mut Places) {
+    still.pieces.iter().for_each(|piece| places.spot(bounds(view, piece), price));
 }
 
 /// The corners of a piece's edge in pixels, the first one again at the end; circles have eight.
@@ -100,38 +107,50 @@ fn edge(view: &View, piece: &Outline) -> Vec<Pixel> {
     corners.iter().chain(corners.first()).copied().collect()
 }
 
-/// Writes the names of all of it.
-pub fn names(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Places) {
-    let room = (view.size[0] * 0.45).clamp(90.0, 190.0);
+/// Writes the blockers' names.
+pub fn blocker_names(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Places) {
     for (kind, blocker) in &scene.blockers {
         let class = if *kind == BlockerKind::Jammer { "name mid in-jammer" } else { "name mid" };
-        shape_name(canvas, view, blocker, class, room, places);
+        shape_name(canvas, view, blocker, class, true, places);
     }
+    scene.blockers.iter().for_each(|(_, blocker)| keep_to_itself(view, blocker, 5.0, places));
+}
+
+/// Writes the names of bases and regions.
+pub fn other_names(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Places) {
     for (name, at) in &scene.bases {
-        let short = text::cut(name, FONT, true, room);
+        let short = text::cut(name, FONT, true, room(view));
         let w = text::width(&short, FONT, true);
-        let choices = labels::around(
-            view.pixel(*at),
-            w,
-            FONT,
-            &[mark::MAST + 2.0, mark::MAST + 14.0, mark::MAST + 30.0],
-        );
-        if let Some(rect) = places.take(choices, 200.0) {
+        let distances = [2.0, 14.0, 30.0, 50.0].map(|d| mark::MAST + d);
+        if let Some(rect) = places.take(labels::around(view.pixel(*at), w, FONT, &distances), 200.0) {
             label(canvas, &rect, "name mid", &short);
         }
     }
     for region in &scene.regions {
-        shape_name(canvas, view, region, "name mid in-region", room, places);
+        shape_name(canvas, view, region, "name mid in-region", false, places);
     }
+    scene.regions.iter().for_each(|region| keep_to_itself(view, region, 0.5, places));
+}
+
+/// How long a name may be.
+fn room(view: &View) -> f64 {
+    (view.size[0] * 0.45).clamp(90.0, 190.0)
 }
 
 /// Writes a shape's name in or at its largest piece.
-fn shape_name(canvas: &mut Canvas, view: &View, still: &Still, class: &str, room: f64, places: &mut Places) {
+fn shape_name(
+    canvas: &mut Canvas,
+    view: &View,
+    still: &Still,
+    class: &str,
+    solid: bool,
+    places: &mut Places,
+) {
     let boxes = still.pieces.iter().map(|piece| bounds(view, piece));
     let Some(target) = boxes.reduce(|a, b| if b.w * b.h > a.w * a.h { b } else { a }) else { return };
-    let short = text::cut(still.name, FONT, true, room);
+    let short = text::cut(still.name, FONT, true, room(view));
     let w = text::width(&short, FONT, true);
-    if let Some(rect) = places.take(labels::about(&target, w, FONT + 1.0), 200.0) {
+    if let Some(rect) = places.take(labels::about(&target, w, FONT + 1.0, solid), 200.0) {
         leader(canvas, &target, &rect);
         label(canvas, &rect, class, &short);
     }

@@ -150,8 +150,6 @@ pub fn arrow(canvas: &mut Canvas, color: &str, from: Pixel, to: Pixel) {
     let (ux, uy) = (dx / length, dy / length);
     let tip = (from.0 + dx / 2.0 + ux * 6.5, from.1 + dy / 2.0 + uy * 6.5);
     let wing = |side: f64| (tip.0 - ux * 13.0 - uy * side, tip.1 - uy * 13.0 + ux * side);
-    canvas.add(&format!(
-        r#"<path class="arrow" d="{}Z" fill="{color}"/>"#,
-        open(&[tip, wing(6.0), wing(-6.0)])
-    ));
+    let head = open(&[tip, wing(6.0), wing(-6.0)]);
+    canvas.add(&format!(r#"<g fill="{color}"><path class="arrow" d="{head}Z"/></g>"#));
 }
