@@ -3,6 +3,7 @@
 //! A snapshot stands beside its mission, `NAME.STAGE.snap`. An empty directory fails: the harness
 //! wants at least one mission for each pattern.
 
+mod picture;
 mod schema;
 
 use std::path::Path;
@@ -152,8 +153,8 @@ fn planned(path: &Path, bytes: Vec<u8>) -> Outcome {
     assert_eq!(read, *plan, "plan.json does not say all of the plan");
     let report = verify::verify(&mission.problem, &read);
     assert!(report.holds(), "{report}");
-    let picture = back::svg::draw(&mission.problem, &read, &back::svg::Options::default()).contents;
-    assert!(picture.starts_with("<svg") && picture.ends_with("</svg>\n"));
+    let drawn = back::svg::draw(&mission.problem, &read, &back::svg::Options::default()).contents;
+    picture::assert_fine(&drawn);
     // Several loops may be as short: which one is found is the search's business.
     let text = format!("length {}, shortest: {shortest}", plan.length);
     snapshot(path, "plan", &text);

@@ -128,6 +128,9 @@ pub enum Command {
         /// What the search speaks of: half-spaces, or the cells of a partition as in the paper
         #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH", help_heading = "Search")]
         encoding: Encoding,
+        /// Write the picture as plan.png too (a dosmc built with `--features png`)
+        #[arg(long, help_heading = "Output")]
+        png: bool,
     },
     /// Check a plan against its mission, in exact arithmetic, believing nothing
     #[command(display_order = 4, after_long_help = help::VERIFY)]

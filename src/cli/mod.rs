@@ -79,8 +79,8 @@ fn run(args: Args) -> Status {
             let wanted = compile::Wanted { emit, length };
             compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
         }
-        Command::Solve { mission, output: directory, encoding } => {
-            let search = solve::Settings { timeout: args.common.timeout, encoding: encoding.into() };
+        Command::Solve { mission, output: directory, encoding, png } => {
+            let search = solve::Settings { timeout: args.common.timeout, encoding: encoding.into(), png };
             solve::solve(&mission, &directory, &overrides, search, &output)
         }
         Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),

@@ -4,6 +4,9 @@
 use super::output::plain_error;
 use crate::diag::Diagnostic;
 
+/// The file's name in the output directory.
+pub const NAME: &str = "plan.png";
+
 /// How many pixels of a PNG stand for one of the SVG.
 #[cfg(feature = "png")]
 const ZOOM: f32 = 2.0;

@@ -14,13 +14,27 @@ use crate::driver::Overrides;
 
 /// What `render --json` prints; for a plan that is refused it prints what `verify --json` does.
 #[derive(Serialize)]
-struct JsonRender {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonRender {
     /// Always `drawn`.
+    #[cfg_attr(test, schemars(extend("enum" = ["drawn"])))]
     status: &'static str,
     /// Whether the plan was made from the same source text.
     same_text: bool,
-    /// The picture.
+    /// The picture's path.
     file: String,
+}
+
+/// All that `render --json` prints.
+#[cfg(test)]
+#[derive(Serialize, schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only the schema is made of it")]
+pub(super) enum JsonRendered {
+    /// A picture.
+    Drawn(JsonRender),
+    /// A plan that is refused.
+    Refused(verify::JsonVerify),
 }
 
 /// How a picture is written.
@@ -55,10 +69,16 @@ fn format(file: &Path) -> Result<Format, Diagnostic> {
     match extension.as_deref() {
         Some("svg") => Ok(Format::Svg),
         Some("png") => png::available().map(|()| Format::Png),
-        _ => Err(super::usage(format!(
-            "`{}` is no picture that can be drawn: FILE.svg and FILE.png can",
-            printable(&file.to_string_lossy())
-        ))),
+        _ => {
+            let name = file.to_string_lossy();
+            let problem =
+                super::usage(format!("`{}` is no kind of picture that can be drawn", printable(&name)));
+            Err(problem.with_help(if png::available().is_ok() {
+                "FILE.svg and FILE.png can"
+            } else {
+                "FILE.svg can, and FILE.png in a dosmc built with `--features png`"
+            }))
+        }
     }
 }
 

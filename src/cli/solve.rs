@@ -10,9 +10,9 @@ use super::files::OutputDirectory;
 use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
 use super::stats::JsonStats;
-use super::{Status, mission};
-use crate::back::{Artifact, svg};
-use crate::diag::printable;
+use super::{Status, mission, png};
+use crate::back::svg;
+use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
 use crate::plan::{self, Plan};
 use crate::solve::{Progress, Reason, Watch};
@@ -78,6 +78,36 @@ pub struct Settings {
     pub timeout: Option<Duration>,
     /// What the search speaks of.
     pub encoding: Encoding,
+    /// Whether to write the picture as PNG too.
+    pub png: bool,
+}
+
+/// Where the plan and its pictures go.
+struct Destination {
+    directory: OutputDirectory,
+    png: bool,
+}
+
+impl Destination {
+    /// Sees whether all can be written.
+    fn probe(directory: &Path, png: bool) -> Result<Destination, Diagnostic> {
+        if png {
+            png::available()?;
+        }
+        Ok(Destination { directory: OutputDirectory::probe(directory)?, png })
+    }
+
+    /// Writes the pictures and the plan, the plan itself last: where it is, all is.
+    fn write(&self, mission: &driver::Mission, plan: &Plan) -> Result<Vec<String>, Diagnostic> {
+        let picture = svg::draw(&mission.problem, plan, &svg::Options::default());
+        let pixels = if self.png { Some(png::from_svg(&picture.contents)?) } else { None };
+        let text = plan::json::write(plan);
+        let mut files = vec![(svg::NAME, picture.contents.as_bytes())];
+        files.extend(pixels.iter().map(|p| (png::NAME, p.as_slice())));
+        files.push(("plan.json", text.as_bytes()));
+        let written = self.directory.write_bytes(&files)?;
+        Ok(written.iter().map(|f| f.to_string_lossy().into_owned()).collect())
+    }
 }
 
 /// Plans a mission and writes the plan and its picture into a directory.
@@ -88,8 +118,8 @@ pub fn solve(
     settings: Settings,
     output: &Output,
 ) -> Status {
-    let directory = match OutputDirectory::probe(directory) {
-        Ok(directory) => directory,
+    let destination = match Destination::probe(directory, settings.png) {
+        Ok(destination) => destination,
         Err(problem) => return output.fail(problem),
     };
     let source = match mission::open_or_fail(path, output) {
@@ -112,7 +142,7 @@ pub fn solve(
         Err(too_fine) => return output.fail(super::usage(too_fine.to_string())),
     };
     let stats = JsonStats::new(&loaded, &solved, time_tube);
-    answer(solved, stats, &loaded, &directory, &overseer, output).unwrap_or_else(|status| status)
+    answer(solved, stats, &loaded, &destination, &overseer, output).unwrap_or_else(|status| status)
 }
 
 /// Writes what came out, and says so.
@@ -120,7 +150,7 @@ fn answer(
     solved: Solved,
     stats: JsonStats,
     mission: &driver::Mission,
-    directory: &OutputDirectory,
+    destination: &Destination,
     overseer: &Overseer,
     output: &Output,
 ) -> Result<Status, Status> {
@@ -130,9 +160,7 @@ fn answer(
     let json = |status| JsonSolve::new(status, overseer.elapsed(), stats.clone());
     match solved.answer {
         Answer::Plan { plan, shortest } => {
-            let artifacts = artifacts(mission, &plan);
-            let files = directory.write(&artifacts).map_err(|problem| output.fail(problem))?;
-            let files: Vec<String> = files.iter().map(|f| f.to_string_lossy().into_owned()).collect();
+            let files = destination.write(mission, &plan).map_err(|problem| output.fail(problem))?;
             output.say(&found(&plan, shortest, solved.encoding, &files))?;
             let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
             output.json(&JsonSolve { length, loop_start, shortest, files, ..json("plan") })?;
@@ -159,12 +187,6 @@ fn answer(
             Ok(Status::Refused)
         }
     }
-}
-
-/// The files of a plan, the plan itself last: where it is, all is.
-fn artifacts(mission: &driver::Mission, plan: &Plan) -> Vec<Artifact> {
-    let picture = svg::draw(&mission.problem, plan, &svg::Options::default());
-    vec![picture, Artifact { name: "plan.json".into(), contents: plan::json::write(plan) }]
 }
 
 fn found(plan: &Plan, shortest: bool, encoding: Encoding, files: &[String]) -> String {
