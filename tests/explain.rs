@@ -310,6 +310,8 @@ fn all_codes_are_listed() {
     let value: Value = serde_json::from_slice(&run(&["explain", "--json"]).stdout).expect("JSON");
     assert_eq!(value["codes"].as_array().map(Vec::len), Some(PAGES.len()));
     assert_eq!(value["codes"][0]["title"], PAGES[0].headline());
+    let tubes = run(&["explain", "tube"]);
+    assert!(status(&tubes) == 0 && out(&tubes).lines().all(|line| line.starts_with("dosm::tube::")));
 }
 
 #[test]
@@ -336,6 +338,9 @@ fn errors_point_to_their_page_once() {
     );
     for quiet in [&["check", wrong, "--quiet"][..], &["check", wrong, "--json"]] {
         assert!(!err(&run(quiet)).contains("for more"), "{quiet:?}");
+    }
+    for without in [&["explain", "xyzzy"][..], &["check", "no/such/file.dosm"]] {
+        assert!(status(&run(without)) == 1 && !err(&run(without)).contains("for more"), "{without:?}");
     }
     let warned = run(&["check", "tests/missions/err/check_unused.dosm"]);
     assert!(err(&warned).contains("dosm::check::unused") && !err(&warned).contains("for more"));

@@ -160,7 +160,7 @@ pub enum Command {
     /// Explain a diagnostic: what it means, why it matters, and how to mend it
     #[command(display_order = 7, after_long_help = help::EXPLAIN)]
     Explain {
-        /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; none: list all
+        /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; or a phase, such as `tube`
         code: Option<String>,
     },
     /// Print a script that completes commands and flags in a shell

@@ -37,23 +37,24 @@ struct JsonCode {
 
 /// Prints a code's page, or the list of all codes.
 pub fn explain(code: Option<&str>, output: &Output) -> Status {
-    let Some(code) = code else { return list(output) };
+    let Some(code) = code else { return list(&PAGES.iter().collect::<Vec<_>>(), output) };
     match explain::find(code) {
         Found::Page(page) => {
             let drawn = explain::draw(page.text, output.result_style);
             let (code, title) = (page.code, page.headline());
             output.result(drawn.trim_end(), &JsonPage { status: "done", code, title, page: page.text })
         }
+        Found::Phase(pages) => list(&pages, output),
         Found::Several(pages) => output.fail(ambiguous(code, &pages)),
         Found::None(near) => output.fail(unknown(code, &near)),
     }
 }
 
-fn list(output: &Output) -> Status {
-    let widest = PAGES.iter().map(|page| page.code.len()).max().unwrap_or(0);
-    let lines = PAGES.iter().map(|page| format!("{:widest$}  {}", page.code, page.headline()));
+fn list(pages: &[&Page], output: &Output) -> Status {
+    let widest = pages.iter().map(|page| page.code.len()).max().unwrap_or(0);
+    let lines = pages.iter().map(|page| format!("{:widest$}  {}", page.code, page.headline()));
     let text = lines.collect::<Vec<_>>().join("\n");
-    let codes = PAGES.iter().map(|page| JsonCode { code: page.code, title: page.headline() }).collect();
+    let codes = pages.iter().map(|page| JsonCode { code: page.code, title: page.headline() }).collect();
     output.result(&text, &JsonList { status: "done", codes })
 }
 

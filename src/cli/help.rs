@@ -140,11 +140,13 @@ Where to go next:
 pub const EXPLAIN: &str = "\
 A page has the meaning in plain words, what would go wrong otherwise, a mission that shows
 the error, and the mended mission. The code may be shortened to `check::duplicate`, or to
-`duplicate` where no other phase has that name. Without a code all are listed.
+`duplicate` where no other phase has that name. A phase alone, such as `tube`, lists its
+codes; without a code all are listed.
 
 Examples:
   dosmc explain dosm::check::unknown_region
   dosmc explain weak_inputs
+  dosmc explain tube
   dosmc explain | grep unit
   dosmc explain --json duplicate
 

@@ -24,7 +24,7 @@ pub struct Output {
     /// How results on standard output are drawn.
     pub result_style: Style,
     style: Style,
-    /// The code of the first error that was drawn.
+    /// The code of the first error that was drawn, the command line's aside.
     first_error: OnceCell<&'static str>,
 }
 
@@ -102,7 +102,10 @@ impl Output {
     pub fn diagnostics<'a>(&self, source: &SourceFile, all: impl IntoIterator<Item = &'a Diagnostic>) {
         let kept = all.into_iter().filter(|d| !self.quiet || d.severity == Severity::Error);
         let kept: Vec<&Diagnostic> = kept.collect();
-        if let Some(error) = kept.iter().find(|d| d.severity == Severity::Error) {
+        // What is wrong with a command line needs no page to be understood.
+        let of_mission =
+            |d: &&&Diagnostic| d.severity == Severity::Error && !d.code.starts_with("dosm::cli::");
+        if let Some(error) = kept.iter().find(of_mission) {
             let _ = self.first_error.set(error.code);
         }
         if !self.json {

@@ -24,6 +24,11 @@ impl Page {
         title.split_once("`: ").map_or(title, |(_, headline)| headline)
     }
 
+    /// The code's second part: who says it.
+    fn phase(&self) -> &'static str {
+        self.code.split("::").nth(1).unwrap_or_default()
+    }
+
     /// The code's last part.
     fn name(&self) -> &'static str {
         self.code.rsplit("::").next().unwrap_or(self.code)
@@ -83,6 +88,8 @@ pub const PAGES: &[Page] = pages! {
 pub enum Found {
     /// Its page.
     Page(&'static Page),
+    /// The pages of a phase that has this name.
+    Phase(Vec<&'static Page>),
     /// Pages of several phases that have this name.
     Several(Vec<&'static Page>),
     /// There is none; the pages whose codes look most like it, the likeliest first.
@@ -90,12 +97,14 @@ pub enum Found {
 }
 
 /// The page of a code: `dosm::check::duplicate`, `check::duplicate`, or `duplicate` where no other
-/// phase has that name. Upper and lower case are the same.
+/// phase has that name; or all pages of a phase, `tube`. Upper and lower case are the same.
 pub fn find(query: &str) -> Found {
     let query = query.trim().to_ascii_lowercase();
     let short = query.strip_prefix("dosm::").unwrap_or(&query);
     let fits = |page: &&Page| page.code["dosm::".len()..] == *short || page.name() == short;
+    let phase: Vec<&Page> = PAGES.iter().filter(|page| page.phase() == short).collect();
     match PAGES.iter().filter(fits).collect::<Vec<_>>().as_slice() {
+        [] if !phase.is_empty() => Found::Phase(phase),
         [] => Found::None(nearest(short)),
         [page] => Found::Page(page),
         several => Found::Several(several.to_vec()),
@@ -103,13 +112,17 @@ pub fn find(query: &str) -> Found {
 }
 
 /// How many similar codes are named, and how similar they have to be, from 0 to 1.
-const MOST_NEAR: usize = 3;
+const MOST_NEAR: usize = 4;
 const LEAST_LIKENESS: f64 = 0.75;
 
+/// The pages that the words may have been meant for: those of codes spelt alike, and those whose
+/// headline has the word in it.
 fn nearest(short: &str) -> Vec<&'static Page> {
     let like = |page: &Page| {
         let whole = strsim::jaro_winkler(&page.code["dosm::".len()..], short);
-        whole.max(strsim::jaro_winkler(page.name(), short))
+        let said = short.len() > 2 && (page.name().contains(short) || page.headline().contains(short));
+        let word = if said { 0.9 } else { 0.0 };
+        whole.max(strsim::jaro_winkler(page.name(), short)).max(word)
     };
     let mut near: Vec<(f64, &Page)> = PAGES.iter().map(|page| (like(page), page)).collect();
     near.retain(|(likeness, _)| *likeness >= LEAST_LIKENESS);
@@ -138,6 +151,20 @@ mod tests {
         let Found::Several(pages) = find("unit_twice") else { panic!("two phases have it") };
         let codes: Vec<&str> = pages.iter().map(|p| p.code).collect();
         assert_eq!(codes, ["dosm::check::unit_twice", "dosm::syntax::unit_twice"]);
+    }
+
+    #[test]
+    fn a_phase_has_all_its_pages() {
+        for query in ["tube", "dosm::tube"] {
+            let Found::Phase(pages) = find(query) else { panic!("it is a phase") };
+            assert!(pages.len() > 5 && pages.iter().all(|page| page.code.starts_with("dosm::tube::")));
+        }
+    }
+
+    #[test]
+    fn a_word_of_a_headline_is_enough_for_a_suggestion() {
+        let Found::None(near) = find("jammer") else { panic!("it is no code") };
+        assert!(near.iter().any(|page| page.code == "dosm::check::blocker_outside"), "{near:?}");
     }
 
     #[test]
