@@ -57,6 +57,7 @@ fn every_answer_of_every_command_is_as_its_schema_says() {
         (&["explain", "no such code"], 1, "error"),
         (&["completions", "bash"], 0, "done"),
         (&["completions", "no such shell"], 1, "error"),
+        (&["new", "no-name"], 1, "error"),
         (&["man"], 0, "done"),
         (&["man", "-o", out], 0, "done"),
         (&["man", "-o", "Cargo.toml"], 1, "error"),

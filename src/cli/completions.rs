@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
-use serde_json::json;
+use serde::Serialize;
 
 use super::args::Args;
 use super::output::Output;
@@ -15,12 +15,60 @@ use crate::back::Artifact;
 /// The name of the command.
 const NAME: &str = "dosmc";
 
+/// What `completions --json` prints.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonScript {
+    /// Always `done`.
+    #[cfg_attr(test, schemars(extend("enum" = ["done"])))]
+    status: &'static str,
+    /// The shell's name.
+    shell: String,
+    /// The script, for the shell to read in.
+    script: String,
+}
+
+/// What `man --json` prints.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonManual {
+    /// Always `done`.
+    #[cfg_attr(test, schemars(extend("enum" = ["done"])))]
+    status: &'static str,
+    /// The page of the whole command, in roff.
+    page: String,
+}
+
+/// What `man -o DIR --json` prints.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonWritten {
+    /// Always `done`.
+    #[cfg_attr(test, schemars(extend("enum" = ["done"])))]
+    status: &'static str,
+    /// The paths of the pages.
+    files: Vec<String>,
+}
+
+/// All that `man --json` prints.
+#[cfg(test)]
+#[derive(Serialize, schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only the schema is made of it")]
+pub(super) enum JsonMan {
+    /// Without a directory.
+    Manual(JsonManual),
+    /// With a directory.
+    Written(JsonWritten),
+}
+
 /// Prints a shell's completion script.
 pub fn completions(shell: Shell, output: &Output) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Args::command(), NAME, &mut script);
-    let script = String::from_utf8_lossy(&script);
-    output.result(script.trim_end(), &json!({"status": "done", "shell": shell.to_string(), "script": script}))
+    let script = String::from_utf8_lossy(&script).into_owned();
+    let text = script.trim_end().to_string();
+    output.result(&text, &JsonScript { status: "done", shell: shell.to_string(), script })
 }
 
 /// Prints the manual's first page, or writes all of them: one for the command and one for each of its
@@ -28,16 +76,17 @@ pub fn completions(shell: Shell, output: &Output) -> Status {
 pub fn man(directory: Option<&Path>, output: &Output) -> Status {
     let pages = pages();
     let Some(directory) = directory else {
-        let page = pages.first().map_or("", |page| page.contents.as_str());
-        return output.result(page.trim_end(), &json!({"status": "done", "page": page}));
+        let page = pages.into_iter().next().map(|page| page.contents).unwrap_or_default();
+        let text = page.trim_end().to_string();
+        return output.result(&text, &JsonManual { status: "done", page });
     };
     match files::OutputDirectory::probe(directory).and_then(|place| place.write(&pages)) {
         Ok(written) => {
-            let lines: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
-            let said = output
-                .say(&lines.join("\n"))
-                .and_then(|()| output.json(&json!({"status": "done", "written": lines})));
-            said.err().unwrap_or(Status::Done)
+            let files: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
+            let said = output.say(&files.join("\n"));
+            said.and_then(|()| output.json(&JsonWritten { status: "done", files }))
+                .err()
+                .unwrap_or(Status::Done)
         }
         Err(problem) => output.fail(problem),
     }

@@ -9,9 +9,12 @@ use crate::explain::{self, Found, PAGES, Page};
 
 /// What `explain --json` prints of a code.
 #[derive(Serialize)]
-struct JsonPage {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonPage {
     /// Always `done`.
+    #[cfg_attr(test, schemars(extend("enum" = ["done"])))]
     status: &'static str,
+    /// The stable code.
     code: &'static str,
     /// The page's headline.
     title: &'static str,
@@ -19,20 +22,37 @@ struct JsonPage {
     page: &'static str,
 }
 
-/// What `explain --json` prints without a code.
+/// What `explain --json` prints of a phase, or of all codes.
 #[derive(Serialize)]
-struct JsonList {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonList {
     /// Always `done`.
+    #[cfg_attr(test, schemars(extend("enum" = ["done"])))]
     status: &'static str,
+    /// The codes in order.
     codes: Vec<JsonCode>,
 }
 
 /// A code in the list.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct JsonCode {
+    /// The stable code.
     code: &'static str,
     /// The headline of its page.
     title: &'static str,
+}
+
+/// All that `explain --json` prints.
+#[cfg(test)]
+#[derive(Serialize, schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only the schema is made of it")]
+pub(super) enum JsonExplained {
+    /// With a code.
+    Page(JsonPage),
+    /// With a phase, or with nothing.
+    List(JsonList),
 }
 
 /// Prints a code's page, or the list of all codes.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use super::output::{Output, plain_error};
 use super::{Status, files};
 use crate::diag::{Diagnostics, printable};
@@ -12,6 +14,17 @@ use crate::source::SourceFile;
 const STARTER: &str = include_str!("starter.dosm");
 /// The longest identifier (language.md §2).
 const LONGEST_NAME: usize = 64;
+
+/// What `new --json` prints.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct JsonNew {
+    /// Always `written`.
+    #[cfg_attr(test, schemars(extend("enum" = ["written"])))]
+    status: &'static str,
+    /// The mission's path.
+    file: PathBuf,
+}
 
 /// Writes the starter mission under a new name.
 pub fn new(name: &str, output: &Output) -> Status {
@@ -32,7 +45,7 @@ pub fn new(name: &str, output: &Output) -> Status {
     }
     let file = path.display();
     let said = output.say(&format!("{file} is written; plan it with:\n  dosmc solve {file} -o out"));
-    let said = said.and_then(|()| output.json(&serde_json::json!({"status": "written", "file": path})));
+    let said = said.and_then(|()| output.json(&JsonNew { status: "written", file: path.clone() }));
     said.err().unwrap_or(Status::Done)
 }
 

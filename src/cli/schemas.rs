@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::output::JsonFailure;
-use super::{check, compile, render, solve, verify};
+use super::{check, compile, completions, explain, new, render, solve, verify};
 use crate::{back, json, plan};
 
 /// Each schema's name and itself: a format or a command more is a line more.
@@ -23,6 +23,10 @@ fn all() -> Vec<(&'static str, Schema)> {
         ("plan", of::<plan::json::schema::Document>()),
         ("check", of::<Printed<check::JsonCheck>>()),
         ("compile", of::<Printed<compile::JsonCompile>>()),
+        ("completions", of::<Printed<completions::JsonScript>>()),
+        ("explain", of::<Printed<explain::JsonExplained>>()),
+        ("man", of::<Printed<completions::JsonMan>>()),
+        ("new", of::<Printed<new::JsonNew>>()),
         ("render", of::<Printed<render::JsonRendered>>()),
         ("solve", of::<Printed<solve::JsonSolve>>()),
         ("verify", of::<Printed<verify::JsonVerify>>()),
