@@ -16,7 +16,7 @@ use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::ir::{self, Problem, Spans, Violation};
 use crate::lower;
 use crate::plan::{self, Nominal, Plan};
-use crate::solve::{self, Outcome, Reason, Statistics, Watch};
+use crate::solve::{self, Outcome, Phase, Reason, Statistics, Watch};
 use crate::source::{SourceFile, Span};
 use crate::syntax;
 use crate::tube::{self, Tubes};
@@ -66,7 +66,20 @@ pub fn problem(
     diagnostics: &mut Diagnostics,
 ) -> Result<(Problem, Spans), Reported> {
     let file = syntax::parse(source, diagnostics)?;
-    let typed = check::check(&file, source, &overrides.set, diagnostics)?;
+    meaning(&file, source, overrides, diagnostics)
+}
+
+/// Finds out what a mission that was parsed means: tree to problem.
+///
+/// # Errors
+/// [`Reported`] when the mission has errors.
+pub fn meaning(
+    file: &syntax::ast::File,
+    source: &SourceFile,
+    overrides: &Overrides,
+    diagnostics: &mut Diagnostics,
+) -> Result<(Problem, Spans), Reported> {
+    let typed = check::check(file, source, &overrides.set, diagnostics)?;
     let (mut problem, spans) = lower::lower(&typed);
     problem.horizon = overrides.horizon.unwrap_or(problem.horizon);
     diagnostics.or_reported()?;
@@ -200,6 +213,7 @@ fn search_with<E>(
         cells: 0,
     };
     for backoff in BACKOFFS {
+        watch.enter(Phase::Geometry);
         let started = watch.now();
         let abstraction = abstract_(backoff)?;
         let time_abstraction = watch.now().saturating_sub(started);
@@ -244,6 +258,7 @@ fn attempt(
         Outcome::NoPlan => Attempt::Answer(Answer::NoPlan(scope(mission, abstraction))),
         Outcome::Unknown(reason) => Attempt::Answer(Answer::Unknown(reason)),
         Outcome::Plan(nominal) => {
+            watch.enter(Phase::ExactCheck);
             let started = watch.now();
             let attempt = proved(mission, abstraction, &nominal);
             *time_verify += watch.now().saturating_sub(started);

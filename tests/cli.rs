@@ -187,12 +187,16 @@ fn json_has_the_promised_shape() {
     let more = ["clauses", "sat_calls", "convex_calls", "lemmas"];
     let times =
         ["time_tube_s", "time_geometry_s", "time_encode_s", "time_sat_s", "time_convex_s", "time_verify_s"];
+    let times = times.into_iter().chain(["time_read_s", "time_check_s", "time_write_s", "time_total_s"]);
     for key in counts.into_iter().chain(more) {
         assert!(value["stats"][key].is_u64(), "{key}");
     }
-    for key in times.into_iter().chain(["peak_rss_mib"]) {
-        assert!(value["stats"][key].is_f64(), "{key}");
+    for key in times.chain(["peak_rss_mib"]) {
+        assert!(value["stats"][key].as_f64() > Some(0.0), "{key}");
     }
+    assert!(value["stats"]["conflicts"].is_object());
+    let rejection = &value["stats"]["rejection"]["Rover"];
+    assert!(rejection["beta"].is_f64() && rejection["why"].is_string(), "{rejection}");
     assert!(out.join("plan.json").is_file());
 
     let value = json(&solved(UNSAT, &["--json"]).2);
@@ -456,7 +460,64 @@ fn the_time_limit_is_kept() {
     let value = json(&output);
     assert_eq!(value["reason"], "timeout");
     assert!(value["reached"].as_u64() > Some(0));
+    let stats = &value["stats"];
+    for key in ["half_spaces", "bool_vars", "clauses", "sat_calls", "convex_calls", "candidates", "lemmas"] {
+        assert!(stats[key].as_u64() > Some(0), "{key} is lost: {stats}");
+    }
+    assert!(stats["conflicts"]["r"].as_u64() > Some(0), "{stats}");
     assert!(!out.exists());
+    // Standard error is no terminal: no progress line, not even of a long search.
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[test]
+fn verbose_lists_the_phases() {
+    let phases = |output: &Output| -> Vec<String> {
+        let text = String::from_utf8(output.stderr.clone()).expect("UTF-8");
+        let table = text.lines().take_while(|l| !l.is_empty());
+        table.map(|l| l.chars().take(12).collect::<String>().trim_end().to_owned()).collect()
+    };
+    let (before, after) = (["phase", "read", "check", "tubes"], ["files", "other", "total"]);
+    let search = ["geometry", "encoding", "SAT", "convex", "exact check"];
+    for mission in [REACH, UNSAT] {
+        let (_keep, _, output) = solved(mission, &["-v"]);
+        assert_eq!(phases(&output), [&before[..], &search, &after].concat(), "{output:?}");
+        assert!(!String::from_utf8_lossy(&output.stdout).contains("phase"));
+    }
+    let dir = temporary();
+    let output = run(&["compile", REACH, "-o", path(dir.path()), "-v"]);
+    assert_eq!(phases(&output), [before.as_slice(), &after].concat());
+    assert_eq!(String::from_utf8_lossy(&solved(REACH, &[]).2.stderr), "");
+}
+
+/// `script` gives the command a terminal.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_a_progress_line_that_goes_away() {
+    let on_terminal = |more: &str| {
+        let dir = temporary();
+        let program = env!("CARGO_BIN_EXE_dosmc");
+        let command = format!(
+            "{program} solve {ENDLESS} -o {} --horizon 1..5000 --timeout 1500ms {more}",
+            path(dir.path())
+        );
+        let mut script = Command::new("script");
+        script.args(["-qec", &command, "/dev/null"]).current_dir(root()).env("TERM", "xterm");
+        let output = script.stdin(Stdio::null()).output().expect("script is there");
+        assert_eq!(status(&output), 4);
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let text = on_terminal("");
+    let (line, answer) =
+        text.rsplit_once('\r').map_or(("", ""), |(rest, _)| rest.rsplit_once('\r').expect("lines"));
+    assert!(
+        line.contains("s · length ") && line.contains(" candidates · ") && line.contains(" refused "),
+        "{text:?}"
+    );
+    assert!(answer.starts_with("unknown: time ran out at length "), "{text:?}");
+    let drawn = text.split('\r').filter(|l| l.contains("· length")).map(|l| l.chars().count());
+    assert!(drawn.max().is_some_and(|widest| widest < 80), "{text:?}");
+    assert!(!on_terminal("--quiet").contains('·'));
 }
 
 #[cfg(unix)]

@@ -163,8 +163,9 @@ fn wrong_documents_are_refused() {
     let verified = printed(&["verify", plan.to_str().expect("plain names"), REACH]).0;
     assert_strict("plan", &read(&plan), &[], &["set", "regions", "outside", "clear"]);
     assert_strict("ir", &read(&dir.path().join("relay.ir.json")), &[], &["set"]);
-    assert_strict("solve", &solved, &["files"], &[]);
-    assert_strict("solve", &printed(&["solve", UNSAT, "-o", out]).0, &["scope"], &["beta", "half_widths"]);
+    assert_strict("solve", &solved, &["files"], &["conflicts", "rejection"]);
+    let unsolved = printed(&["solve", UNSAT, "-o", out]).0;
+    assert_strict("solve", &unsolved, &["scope"], &["beta", "half_widths", "conflicts", "rejection"]);
     assert_strict("compile", &compiled, &[], &[]);
     assert_strict("verify", &verified, &[], &[]);
     assert_strict("check", &printed(&["check", WRONG]).0, &[], &[]);

@@ -57,7 +57,7 @@ const MAY_NAME: [(&str, &[&str]); 22] = [
 ];
 
 /// Names of crates and of the standard library with the only places (path prefixes) for them.
-const BORDERS: [(&str, &[&str]); 28] = [
+const BORDERS: [(&str, &[&str]); 27] = [
     ("pest", &["src/syntax"]),
     ("pest_derive", &["src/syntax"]),
     ("rustsat", &["src/encode", "src/solve", "src/back/cnf"]),
@@ -71,7 +71,6 @@ const BORDERS: [(&str, &[&str]); 28] = [
     ("clap_complete", &["src/cli"]),
     ("clap_mangen", &["src/cli"]),
     ("ctrlc", &["src/cli"]),
-    ("indicatif", &["src/cli"]),
     ("resvg", &["src/cli/png.rs"]),
     ("tempfile", &["src/cli"]),
     ("terminal_size", &["src/cli"]),

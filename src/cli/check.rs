@@ -1,10 +1,12 @@
 //! `dosmc check`: diagnostics, and nothing else.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::Serialize;
 
-use super::output::{Output, counted};
+use super::output::{Output, counted, giving_up};
+use super::overseer::Overseer;
 use super::{Status, mission};
 use crate::diag::json::{JsonDiagnostic, to_json};
 use crate::diag::{Diagnostic, Severity};
@@ -47,11 +49,19 @@ struct Looked {
 }
 
 /// Checks all missions; the worst status is the command's.
-pub fn check(missions: &[PathBuf], overrides: &Overrides, output: &Output) -> Status {
+pub fn check(
+    missions: &[PathBuf],
+    overrides: &Overrides,
+    timeout: Option<Duration>,
+    output: &Output,
+) -> Status {
     if missions.iter().filter(|m| m.as_path() == Path::new("-")).count() > 1 {
         return output.fail(super::usage("standard input can be read only once, but `-` stands there twice"));
     }
+    let overseer = Overseer::start(timeout, !output.quiet, giving_up(output.clone()));
+    overseer.enter("checking");
     let all: Vec<Looked> = missions.iter().map(|path| look(path, overrides)).collect();
+    overseer.close();
     for one in &all {
         output.diagnostics(&one.source, &one.diagnostics);
     }

@@ -2,25 +2,25 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use super::files::OutputDirectory;
 use super::output::Output;
-use super::overseer::{Cause, LastWords, Overseer};
-use super::{Status, mission};
+use super::overseer::Overseer;
+use super::stats::{Ledger, peak_rss_mib};
+use super::{Status, mission, output, phases};
 use crate::back::{Artifact, Emit};
 use crate::diag::printable;
 use crate::driver::{self, Overrides};
-use crate::solve::Progress;
 
 /// What `compile --json` prints.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct JsonCompile {
-    /// `done`, or `unknown` when time ran out before anything was written.
-    #[cfg_attr(test, schemars(extend("enum" = ["done", "unknown"])))]
+    /// Always `done`.
+    #[cfg_attr(test, schemars(extend("const" = "done")))]
     status: &'static str,
     /// The paths of the files written.
     files: Vec<String>,
@@ -47,17 +47,20 @@ pub fn compile(
         Ok(directory) => directory,
         Err(problem) => return output.fail(problem),
     };
-    let source = match mission::open_or_fail(path, output) {
-        Ok(source) => source,
-        Err(status) => return status,
-    };
-    let overseer = Overseer::start(timeout, !output.quiet, last_words(output.clone()));
-    let artifacts =
-        mission::load_or_fail(&source, overrides, output).map(|(mission, _)| artifacts(&mission, wanted));
+    let ledger = Ledger::default();
+    let overseer = Overseer::start(timeout, !output.quiet, output::giving_up(output.clone()));
+    let artifacts = mission::load_or_fail(path, overrides, &overseer, &ledger, output).map(|mission| {
+        let started = Instant::now();
+        overseer.enter("writing");
+        let artifacts = artifacts(&mission, wanted);
+        let size = artifacts.iter().map(|a| a.contents.len()).sum();
+        ledger.note(|run| run.wrote(artifacts.len(), size, started.elapsed()));
+        artifacts
+    });
     overseer.close();
     let done = artifacts.and_then(|artifacts| match overseer.cause() {
-        Some(cause) => given_up(cause, overseer.elapsed(), output),
-        None => write(&artifacts, &directory, output),
+        Some(cause) => Err(output.give_up(cause, overseer.elapsed())),
+        None => write(&artifacts, &directory, &overseer, &ledger, output),
     });
     done.unwrap_or_else(|status| status)
 }
@@ -69,29 +72,21 @@ fn artifacts(mission: &driver::Mission, wanted: &Wanted) -> Vec<Artifact> {
     emit.flat_map(|e| driver::compile(mission, *e, wanted.length)).collect()
 }
 
-fn write(artifacts: &[Artifact], directory: &OutputDirectory, output: &Output) -> Result<Status, Status> {
+fn write(
+    artifacts: &[Artifact],
+    directory: &OutputDirectory,
+    overseer: &Overseer,
+    ledger: &Ledger,
+    output: &Output,
+) -> Result<Status, Status> {
+    let started = Instant::now();
     let files = directory.write(artifacts).map_err(|problem| output.fail(problem))?;
+    ledger.note(|run| run.time_write += started.elapsed());
+    if output.verbose > 0 {
+        output.note(&phases::of_files(&ledger.so_far(), overseer.elapsed(), peak_rss_mib()));
+    }
     let files: Vec<String> = files.iter().map(|f| f.to_string_lossy().into_owned()).collect();
     output.say(&format!("written:\n  {}", printable(&files.join("\n  "))))?;
     output.json(&JsonCompile { status: "done", files })?;
     Ok(Status::Done)
-}
-
-/// Says that nothing was written, and why.
-fn given_up(cause: Cause, elapsed: Duration, output: &Output) -> Result<Status, Status> {
-    let why = match cause {
-        Cause::Timeout => "time ran out",
-        Cause::Interrupt => "interrupted",
-    };
-    output.say(&format!("unknown: {why} after {:.1} s; nothing was written", elapsed.as_secs_f64()))?;
-    output.json(&JsonCompile { status: "unknown", files: Vec::new() })?;
-    Ok(Status::Unknown)
-}
-
-/// What is said when the process has to end in the middle of something.
-fn last_words(output: Output) -> LastWords {
-    Box::new(move |cause: Cause, _: Progress, elapsed: Duration| {
-        // Nothing more can be done about an output that fails here.
-        let _ = given_up(cause, elapsed, &output);
-    })
 }

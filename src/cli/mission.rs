@@ -1,9 +1,11 @@
 //! Opening the missions that a command line names.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::output::Output;
+use super::overseer::Overseer;
+use super::stats::Ledger;
 use super::{Status, files};
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::driver::{self, Mission, Overrides};
@@ -59,24 +61,40 @@ pub fn problem_or_fail(path: &Path, overrides: &Overrides, output: &Output) -> R
     told(problem, &source, &sorted(&diagnostics), output).map(|(problem, _)| problem)
 }
 
-/// Loads a mission, and says what is wrong with it; with the time that its tubes took.
+/// Loads a mission step by step, notes what each took, and says what is wrong with it.
 ///
 /// # Errors
 /// The command's status when there is something wrong, which was said.
 pub fn load_or_fail(
-    source: &SourceFile,
+    path: &Path,
     overrides: &Overrides,
+    overseer: &Overseer,
+    ledger: &Ledger,
     output: &Output,
-) -> Result<(Mission, Duration), Status> {
+) -> Result<Mission, Status> {
+    let started = Instant::now();
+    let source = open_or_fail(path, output)?;
     let mut diagnostics = Diagnostics::new();
-    let mut time_tube = Duration::ZERO;
-    let loaded = driver::problem(source, overrides, &mut diagnostics).and_then(|(problem, spans)| {
+    let file = syntax::parse(&source, &mut diagnostics);
+    ledger.note(|run| run.read(&source, started.elapsed()));
+    let problem = file.and_then(|file| {
         let started = Instant::now();
+        overseer.enter("checking");
+        let problem = driver::meaning(&file, &source, overrides, &mut diagnostics);
+        ledger.note(|run| run.time_check = started.elapsed());
+        problem
+    });
+    let mission = problem.and_then(|(problem, spans)| {
+        let started = Instant::now();
+        overseer.name_robots(problem.robots.values().map(|r| r.name.clone()).collect());
+        overseer.enter("making tubes");
         let mission = driver::prepare(problem, spans, &mut diagnostics);
-        time_tube = started.elapsed();
+        ledger.note(|run| run.time_tube = started.elapsed());
         mission
     });
-    told(loaded, source, &sorted(&diagnostics), output).map(|mission| (mission, time_tube))
+    let mission = overseer.aside(|| told(mission, &source, &sorted(&diagnostics), output))?;
+    ledger.note(|run| run.loaded(&mission));
+    Ok(mission)
 }
 
 /// Reads a mission's text, and says why when that fails.

@@ -12,10 +12,12 @@ mod completions;
 mod explain;
 mod files;
 mod help;
+mod line;
 mod mission;
 mod new;
 mod output;
 mod overseer;
+mod phases;
 mod png;
 mod render;
 mod solve;
@@ -74,7 +76,7 @@ fn run(args: Args) -> Status {
         return output.fail(usage(format!("`--set {name}=…` is given twice")));
     }
     let status = match args.command {
-        Command::Check { missions } => check::check(&missions, &overrides, &output),
+        Command::Check { missions } => check::check(&missions, &overrides, args.common.timeout, &output),
         Command::Compile { mission, output: directory, emit, length } => {
             let wanted = compile::Wanted { emit, length };
             compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
@@ -83,9 +85,11 @@ fn run(args: Args) -> Status {
             let search = solve::Settings { timeout: args.common.timeout, encoding: encoding.into(), png };
             solve::solve(&mission, &directory, &overrides, search, &output)
         }
-        Command::Verify { plan, mission } => verify::verify(&plan, &mission, &overrides, &output),
+        Command::Verify { plan, mission } => {
+            verify::verify(&plan, &mission, &overrides, args.common.timeout, &output)
+        }
         Command::Render { plan, mission, output: file } => {
-            render::render(&plan, &mission, &file, &overrides, &output)
+            render::render(&plan, &mission, &file, &overrides, args.common.timeout, &output)
         }
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),

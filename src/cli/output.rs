@@ -2,11 +2,13 @@
 
 use std::cell::OnceCell;
 use std::io::{self, IsTerminal, Write};
+use std::time::Duration;
 
 use serde::Serialize;
 
 use super::Status;
 use super::args::{Color, Common};
+use super::overseer::{Cause, LastWords};
 use crate::diag::json::{JsonDiagnostic, to_json};
 use crate::diag::render::{Style, render};
 use crate::diag::{Diagnostic, Severity};
@@ -37,6 +39,28 @@ pub struct JsonFailure {
     pub status: &'static str,
     /// What was wrong.
     pub diagnostics: Vec<JsonDiagnostic>,
+}
+
+/// What `--json` prints when a command stops before its work is done.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct JsonGivenUp {
+    /// Always `unknown`.
+    #[cfg_attr(test, schemars(extend("const" = "unknown")))]
+    pub status: &'static str,
+    /// `timeout` or `interrupt`.
+    #[cfg_attr(test, schemars(extend("enum" = ["timeout", "interrupt"])))]
+    pub reason: &'static str,
+    /// The time since the start, in seconds.
+    pub time_s: f64,
+}
+
+/// The last words of a command that has nothing more to say than that it stops.
+pub fn giving_up(output: Output) -> LastWords {
+    Box::new(move |cause, _, elapsed| {
+        // Nothing more can be done about an output that fails here.
+        let _ = output.give_up(cause, elapsed);
+    })
 }
 
 impl Output {
@@ -137,6 +161,14 @@ impl Output {
         self.json(&failure).err().unwrap_or(status)
     }
 
+    /// Ends a command before its work is done.
+    pub fn give_up(&self, cause: Cause, elapsed: Duration) -> Status {
+        let time_s = elapsed.as_secs_f64();
+        let said = self.say(&format!("unknown: {} after {time_s:.1} s; nothing is done", cause.said()));
+        let json = JsonGivenUp { status: "unknown", reason: cause.name(), time_s };
+        said.and_then(|()| self.json(&json)).err().unwrap_or(Status::Unknown)
+    }
+
     fn print(&self, text: &str) -> Result<(), Status> {
         let mut out = io::stdout().lock();
         match writeln!(out, "{text}").and_then(|()| out.flush()) {
@@ -168,7 +200,16 @@ pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
+/// Whether the environment has nothing against colours.
 fn colors_by_default() -> bool {
-    let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
-    !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")
+    std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()) && !is_dumb()
+}
+
+/// Whether standard error is a terminal that can take back what stands there.
+pub fn redraws() -> bool {
+    io::stderr().is_terminal() && !is_dumb()
+}
+
+fn is_dumb() -> bool {
+    std::env::var_os("TERM").is_some_and(|t| t == "dumb")
 }

@@ -4,17 +4,15 @@
 //! draws the progress line, and ends the process when the search does not stop in time; it never
 //! does so once results are being written.
 
-use std::io::IsTerminal;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
-use super::Status;
-use crate::solve::{Progress, Watch};
+use super::line::{self, Line};
+use super::{Status, output};
+use crate::solve::{Phase, Progress, Watch};
 
 /// A progress line appears after this time.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -23,7 +21,7 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// How long the search may take to stop by itself.
 const GRACE: Duration = Duration::from_millis(700);
 
-/// Why a search has to stop.
+/// Why a command has to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The time limit.
@@ -32,8 +30,35 @@ pub enum Cause {
     Interrupt,
 }
 
+impl Cause {
+    /// The name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::Timeout => "timeout",
+            Cause::Interrupt => "interrupt",
+        }
+    }
+
+    /// What is said about it.
+    pub fn said(self) -> &'static str {
+        match self {
+            Cause::Timeout => "time ran out",
+            Cause::Interrupt => "interrupted",
+        }
+    }
+}
+
 /// Says what was reached when the process has to end without its main thread.
 pub type LastWords = Box<dyn Fn(Cause, Progress, Duration) + Send>;
+
+/// What the progress line is about.
+#[derive(Clone, Debug)]
+enum Stage {
+    /// Something with a name.
+    Named(&'static str),
+    /// A search.
+    Search,
+}
 
 /// What the search, the signal handler and the thread share.
 pub struct Overseer {
@@ -41,9 +66,12 @@ pub struct Overseer {
     deadline: Option<Instant>,
     interrupted: AtomicBool,
     progress: Mutex<Progress>,
+    robots: Mutex<Vec<String>>,
+    stage: Mutex<Stage>,
     /// Whether the main thread has taken over again: nobody else may end the process then.
     closing: Mutex<bool>,
     thread: Mutex<Option<JoinHandle<()>>>,
+    line: Mutex<Line>,
 }
 
 impl Overseer {
@@ -55,14 +83,17 @@ impl Overseer {
             deadline: timeout.and_then(|t| started.checked_add(t)),
             interrupted: AtomicBool::new(false),
             progress: Mutex::new(Progress::default()),
+            stage: Mutex::new(Stage::Named("reading")),
+            robots: Mutex::new(Vec::new()),
             closing: Mutex::new(false),
             thread: Mutex::new(None),
+            line: Mutex::new(Line::default()),
         });
         let signalled = Arc::clone(&overseer);
         // Without a handler Ctrl-C still ends the process; results are written whole or not at all.
         let _ = ctrlc::set_handler(move || signalled.interrupted.store(true, Ordering::SeqCst));
         let watcher = Arc::clone(&overseer);
-        let show = show_progress && std::io::stderr().is_terminal();
+        let show = show_progress && output::redraws();
         *lock(&overseer.thread) = Some(thread::spawn(move || watcher.oversee(show, &last_words)));
         overseer
     }
@@ -88,7 +119,24 @@ impl Overseer {
 
     /// How far the search is.
     pub fn reached(&self) -> Progress {
-        *lock(&self.progress)
+        lock(&self.progress).clone()
+    }
+
+    /// Says what is being done, for the progress line.
+    pub fn enter(&self, stage: &'static str) {
+        *lock(&self.stage) = Stage::Named(stage);
+    }
+
+    /// Does something that writes on the terminal, while there is no progress line.
+    pub fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
+        let mut line = lock(&self.line);
+        line.clear();
+        act()
+    }
+
+    /// Says who searches, for the progress line.
+    pub fn name_robots(&self, names: Vec<String>) {
+        *lock(&self.robots) = names;
     }
 
     /// The time since the start.
@@ -96,22 +144,30 @@ impl Overseer {
         self.started.elapsed()
     }
 
+    /// What is being done, and how far it is.
+    fn said(&self) -> String {
+        let elapsed = self.elapsed();
+        match *lock(&self.stage) {
+            Stage::Named(stage) => line::said(stage, elapsed),
+            Stage::Search => line::search(&lock(&self.progress), &lock(&self.robots), elapsed),
+        }
+    }
+
     fn oversee(&self, show_progress: bool, last_words: &LastWords) {
-        let mut line = None;
         let mut overdue = None;
-        loop {
+        for round in 0usize.. {
             thread::park_timeout(PERIOD);
             let closing = lock(&self.closing);
             if *closing {
-                return clear(line);
+                return lock(&self.line).clear();
             }
-            if show_progress && self.elapsed() >= PATIENCE {
-                draw(line.get_or_insert_with(new_line), &self.reached());
+            if show_progress && self.elapsed() >= PATIENCE && round.is_multiple_of(2) {
+                lock(&self.line).draw(&self.said());
             }
             if let Some(cause) = self.cause()
                 && overdue.get_or_insert_with(Instant::now).elapsed() >= GRACE
             {
-                clear(line);
+                lock(&self.line).clear();
                 last_words(cause, self.reached(), self.elapsed());
                 process::exit(Status::Unknown.code().into());
             }
@@ -125,7 +181,15 @@ impl Watch for Overseer {
     }
 
     fn progress(&self, progress: &Progress) {
-        *lock(&self.progress) = *progress;
+        lock(&self.progress).clone_from(progress);
+    }
+
+    fn enter(&self, phase: Phase) {
+        *lock(&self.stage) = match phase {
+            Phase::Geometry => Stage::Named("looking at the geometry"),
+            Phase::Search => Stage::Search,
+            Phase::ExactCheck => Stage::Named("checking the plan exactly"),
+        };
     }
 
     fn now(&self) -> Duration {
@@ -136,26 +200,4 @@ impl Watch for Overseer {
 /// A mutex's value, whatever happened to those who held it before.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn new_line() -> ProgressBar {
-    let line = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} [{elapsed}]") {
-        line.set_style(style);
-    }
-    line
-}
-
-fn draw(line: &ProgressBar, reached: &Progress) {
-    line.set_message(match reached.length {
-        0 => "preparing".into(),
-        length => format!("length {length}: {} candidates, {} lemmas", reached.candidates, reached.lemmas),
-    });
-    line.tick();
-}
-
-fn clear(line: Option<ProgressBar>) {
-    if let Some(line) = line {
-        line.finish_and_clear();
-    }
 }

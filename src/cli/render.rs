@@ -1,6 +1,7 @@
 //! `dosmc render`: the picture of a plan that checks.
 
 use std::path::Path;
+use std::time::Duration;
 
 use serde::Serialize;
 
@@ -45,13 +46,20 @@ enum Format {
 }
 
 /// Draws a plan of a mission, if it checks.
-pub fn render(plan: &Path, mission: &Path, file: &Path, overrides: &Overrides, output: &Output) -> Status {
+pub fn render(
+    plan: &Path,
+    mission: &Path,
+    file: &Path,
+    overrides: &Overrides,
+    timeout: Option<Duration>,
+    output: &Output,
+) -> Status {
     let prepared = format(file).and_then(|format| Ok((format, OutputFile::probe(file)?)));
     let (format, file) = match prepared {
         Ok(prepared) => prepared,
         Err(problem) => return output.fail(problem),
     };
-    match verify::examine(plan, mission, overrides, output) {
+    match verify::examine(plan, mission, overrides, timeout, output) {
         Ok(examined) if examined.report.holds() => {
             draw(&examined, format, &file, output).unwrap_or_else(|status| status)
         }

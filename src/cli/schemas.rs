@@ -12,7 +12,7 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::output::JsonFailure;
+use super::output::{JsonFailure, JsonGivenUp};
 use super::{check, compile, completions, explain, new, render, solve, verify};
 use crate::{back, json, plan};
 
@@ -21,15 +21,15 @@ fn all() -> Vec<(&'static str, Schema)> {
     vec![
         ("ir", of::<back::ir::Document>()),
         ("plan", of::<plan::json::schema::Document>()),
-        ("check", of::<Printed<check::JsonCheck>>()),
-        ("compile", of::<Printed<compile::JsonCompile>>()),
+        ("check", of::<Stoppable<check::JsonCheck>>()),
+        ("compile", of::<Stoppable<compile::JsonCompile>>()),
         ("completions", of::<Printed<completions::JsonScript>>()),
         ("explain", of::<Printed<explain::JsonExplained>>()),
         ("man", of::<Printed<completions::JsonMan>>()),
         ("new", of::<Printed<new::JsonNew>>()),
-        ("render", of::<Printed<render::JsonRendered>>()),
+        ("render", of::<Stoppable<render::JsonRendered>>()),
         ("solve", of::<Printed<solve::JsonSolve>>()),
-        ("verify", of::<Printed<verify::JsonVerify>>()),
+        ("verify", of::<Stoppable<verify::JsonVerify>>()),
     ]
 }
 
@@ -44,6 +44,19 @@ enum Printed<T> {
     Failure(JsonFailure),
 }
 
+/// What the command prints on standard output with `--json`, one that stops without an answer included.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only the schema is made of it")]
+enum Stoppable<T> {
+    /// When the command could do its work.
+    Answer(T),
+    /// When it could not: wrong usage, files that can't be read, missions with errors.
+    Failure(JsonFailure),
+    /// When it had to stop: time ran out, or somebody interrupted.
+    GivenUp(JsonGivenUp),
+}
+
 fn of<T: JsonSchema>() -> Schema {
     // What is written is described, not what a lenient reader might take.
     let settings = SchemaSettings::draft2020_12().for_serialize();
@@ -54,7 +67,7 @@ fn of<T: JsonSchema>() -> Schema {
 /// definitions last.
 fn text(name: &str, schema: &Schema) -> String {
     let mut value = schema.clone().to_value();
-    if value["title"] == "--json" {
+    if value["anyOf"].is_array() {
         value["title"] = format!("dosmc {name} --json").into();
     }
     json::lay_out(&ordered(&value))

@@ -2,20 +2,20 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use super::files::OutputDirectory;
 use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
-use super::stats::JsonStats;
-use super::{Status, mission, png};
+use super::stats::{JsonStats, Ledger, peak_rss_mib};
+use super::{Status, mission, phases, png};
 use crate::back::svg;
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
 use crate::plan::{self, Plan};
-use crate::solve::{Progress, Reason, Watch};
+use crate::solve::{Progress, Reason, Statistics, Watch};
 use crate::verify::JsonReport;
 
 /// What `solve --json` prints.
@@ -97,8 +97,9 @@ impl Destination {
         Ok(Destination { directory: OutputDirectory::probe(directory)?, png })
     }
 
-    /// Writes the pictures and the plan, the plan itself last: where it is, all is.
-    fn write(&self, mission: &driver::Mission, plan: &Plan) -> Result<Vec<String>, Diagnostic> {
+    /// Writes the pictures and the plan, the plan itself last: where it is, all is. Gives their paths
+    /// and how many bytes they are.
+    fn write(&self, mission: &driver::Mission, plan: &Plan) -> Result<(Vec<String>, usize), Diagnostic> {
         let picture = svg::draw(&mission.problem, plan, &svg::Options::default());
         let pixels = if self.png { Some(png::from_svg(&picture.contents)?) } else { None };
         let text = plan::json::write(plan);
@@ -106,7 +107,8 @@ impl Destination {
         files.extend(pixels.iter().map(|p| (png::NAME, p.as_slice())));
         files.push(("plan.json", text.as_bytes()));
         let written = self.directory.write_bytes(&files)?;
-        Ok(written.iter().map(|f| f.to_string_lossy().into_owned()).collect())
+        let size = files.iter().map(|(_, contents)| contents.len()).sum();
+        Ok((written.iter().map(|f| f.to_string_lossy().into_owned()).collect(), size))
     }
 }
 
@@ -122,69 +124,96 @@ pub fn solve(
         Ok(destination) => destination,
         Err(problem) => return output.fail(problem),
     };
-    let source = match mission::open_or_fail(path, output) {
-        Ok(source) => source,
-        Err(status) => return status,
-    };
-    let overseer = Overseer::start(settings.timeout, !output.quiet, last_words(output.clone()));
-    let (loaded, time_tube) = match mission::load_or_fail(&source, overrides, output) {
-        Ok(loaded) => loaded,
+    let ledger = Ledger::default();
+    ledger.note(|run| run.encoding = settings.encoding);
+    let overseer =
+        Overseer::start(settings.timeout, !output.quiet, last_words(ledger.clone(), output.clone()));
+    let mission = match mission::load_or_fail(path, overrides, &overseer, &ledger, output) {
+        Ok(mission) => mission,
         Err(status) => {
             overseer.close();
             return status;
         }
     };
     let watch: Arc<dyn Watch> = Arc::<Overseer>::clone(&overseer);
-    let solved = driver::solve_with(&loaded, settings.encoding, &watch);
+    let solved = driver::solve_with(&mission, settings.encoding, &watch);
     overseer.close();
-    let solved = match solved {
+    let Solved { answer: found, statistics, time_verify, cells, .. } = match solved {
         Ok(solved) => solved,
         Err(too_fine) => return output.fail(super::usage(too_fine.to_string())),
     };
-    let stats = JsonStats::new(&loaded, &solved, time_tube);
-    answer(solved, stats, &loaded, &destination, &overseer, output).unwrap_or_else(|status| status)
+    ledger.note(|run| (run.time_verify, run.cells) = (time_verify, cells));
+    let ending = Ending { mission: &mission, statistics, overseer: &overseer, ledger: &ledger, output };
+    ending.answer(found, &destination).unwrap_or_else(|status| status)
 }
 
-/// Writes what came out, and says so.
-fn answer(
-    solved: Solved,
-    stats: JsonStats,
-    mission: &driver::Mission,
-    destination: &Destination,
-    overseer: &Overseer,
-    output: &Output,
-) -> Result<Status, Status> {
-    if output.verbose > 0 {
-        output.note(&stats.to_string());
+/// A search that has ended.
+struct Ending<'a> {
+    mission: &'a driver::Mission,
+    statistics: Statistics,
+    overseer: &'a Overseer,
+    ledger: &'a Ledger,
+    output: &'a Output,
+}
+
+impl Ending<'_> {
+    /// Writes what came out, and says so.
+    fn answer(&self, answer: Answer, destination: &Destination) -> Result<Status, Status> {
+        let output = self.output;
+        match answer {
+            Answer::Plan { plan, shortest } => self.plan(&plan, shortest, destination),
+            Answer::NoPlan(scope) => {
+                self.note_phases();
+                output.say(&no_plan(self.mission, &scope))?;
+                output.json(&JsonSolve { scope: Some(scope), ..self.json("no_plan") })?;
+                Ok(Status::NoPlan)
+            }
+            Answer::Unknown(reason) => {
+                self.note_phases();
+                let (name, why) = why_unknown(reason, self.overseer.cause());
+                let reached = self.statistics.length;
+                output.say(&unknown(why, reached, self.overseer.elapsed()))?;
+                output.json(&JsonSolve {
+                    reason: Some(name),
+                    reached: Some(reached),
+                    ..self.json("unknown")
+                })?;
+                Ok(Status::Unknown)
+            }
+            Answer::Refused(report) => {
+                self.note_phases();
+                output.say(&format!(
+                    "the plan that was found does not check exactly, and wider margins did not help:\n{}",
+                    printable(&report.to_string())
+                ))?;
+                output.json(&JsonSolve { report: Some(report.to_json()), ..self.json("error") })?;
+                Ok(Status::Refused)
+            }
+        }
     }
-    let json = |status| JsonSolve::new(status, overseer.elapsed(), stats.clone());
-    match solved.answer {
-        Answer::Plan { plan, shortest } => {
-            let files = destination.write(mission, &plan).map_err(|problem| output.fail(problem))?;
-            output.say(&found(&plan, shortest, solved.encoding, &files))?;
-            let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
-            output.json(&JsonSolve { length, loop_start, shortest, files, ..json("plan") })?;
-            Ok(Status::Done)
-        }
-        Answer::NoPlan(scope) => {
-            output.say(&no_plan(mission, &scope))?;
-            output.json(&JsonSolve { scope: Some(scope), ..json("no_plan") })?;
-            Ok(Status::NoPlan)
-        }
-        Answer::Unknown(reason) => {
-            let (name, why) = why_unknown(reason, overseer.cause());
-            let reached = overseer.reached().length;
-            output.say(&unknown(why, reached, overseer.elapsed()))?;
-            output.json(&JsonSolve { reason: Some(name), reached: Some(reached), ..json("unknown") })?;
-            Ok(Status::Unknown)
-        }
-        Answer::Refused(report) => {
-            output.say(&format!(
-                "the plan that was found does not check exactly, and wider margins did not help:\n{}",
-                printable(&report.to_string())
-            ))?;
-            output.json(&JsonSolve { report: Some(report.to_json()), ..json("error") })?;
-            Ok(Status::Refused)
+
+    fn plan(&self, plan: &Plan, shortest: bool, destination: &Destination) -> Result<Status, Status> {
+        let started = Instant::now();
+        let (files, size) =
+            destination.write(self.mission, plan).map_err(|problem| self.output.fail(problem))?;
+        self.ledger.note(|run| run.wrote(files.len(), size, started.elapsed()));
+        self.note_phases();
+        self.output.say(&found(plan, shortest, self.ledger.so_far().encoding, &files))?;
+        let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
+        self.output.json(&JsonSolve { length, loop_start, shortest, files, ..self.json("plan") })?;
+        Ok(Status::Done)
+    }
+
+    fn json(&self, status: &'static str) -> JsonSolve {
+        let time = self.overseer.elapsed();
+        JsonSolve::new(status, time, JsonStats::new(&self.ledger.so_far(), &self.statistics, time))
+    }
+
+    /// With `-v`, what took how long.
+    fn note_phases(&self) {
+        if self.output.verbose > 0 {
+            let (run, total) = (self.ledger.so_far(), self.overseer.elapsed());
+            self.output.note(&phases::of_search(&run, &self.statistics, total, peak_rss_mib()));
         }
     }
 }
@@ -219,10 +248,12 @@ fn list(numbers: &[f64]) -> String {
 }
 
 fn why_unknown(reason: Reason, cause: Option<Cause>) -> (&'static str, &'static str) {
-    match (reason, cause) {
-        (Reason::Numerics, _) => ("numerics", "some length could not be decided numerically"),
-        (Reason::Stopped, Some(Cause::Timeout)) => ("timeout", "time ran out"),
-        (Reason::Stopped, _) => ("interrupt", "interrupted"),
+    match reason {
+        Reason::Numerics => ("numerics", "some length could not be decided numerically"),
+        Reason::Stopped => {
+            let cause = cause.unwrap_or(Cause::Interrupt);
+            (cause.name(), cause.said())
+        }
     }
 }
 
@@ -232,12 +263,13 @@ fn unknown(why: &str, reached: usize, elapsed: Duration) -> String {
 }
 
 /// What is said when the process has to end in the middle of something.
-fn last_words(output: Output) -> LastWords {
-    Box::new(move |cause: Cause, progress: Progress, elapsed: Duration| {
-        let (name, why) = why_unknown(Reason::Stopped, Some(cause));
+fn last_words(ledger: Ledger, output: Output) -> LastWords {
+    Box::new(move |cause: Cause, reached: Progress, elapsed: Duration| {
+        let length = reached.length;
         // Nothing more can be done about an output that fails here.
-        let _ = output.say(&unknown(why, progress.length, elapsed));
-        let json = JsonSolve::new("unknown", elapsed, JsonStats::of_progress(&progress));
-        let _ = output.json(&JsonSolve { reason: Some(name), reached: Some(progress.length), ..json });
+        let _ = output.say(&unknown(cause.said(), length, elapsed));
+        let stats = JsonStats::new(&ledger.so_far(), &reached, elapsed);
+        let json = JsonSolve::new("unknown", elapsed, stats);
+        let _ = output.json(&JsonSolve { reason: Some(cause.name()), reached: Some(length), ..json });
     })
 }

@@ -1,72 +1,188 @@
-//! The statistics of a run, for programs and for `-v`.
+//! What a run took and counted, for programs; [`phases`](super::phases) shows it to people.
 
-use std::fmt;
+use std::collections::BTreeMap;
 use std::fs;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::driver::{Encoding, Mission, Solved};
-use crate::solve::Progress;
+use crate::driver::{Encoding, Mission};
+use crate::solve::Statistics;
+use crate::source::SourceFile;
 
-/// `stats` in `solve --json`; times in seconds.
+/// What is known of a run besides its search; each part from the moment on when it is done.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    /// Time spent reading the mission's text and parsing it.
+    pub time_read: Duration,
+    /// Time spent finding out what it means.
+    pub time_check: Duration,
+    /// Time spent on tubes and the first step.
+    pub time_tube: Duration,
+    /// Time spent in the exact check.
+    pub time_verify: Duration,
+    /// Time spent making the files' contents and writing them.
+    pub time_write: Duration,
+    /// Lines and bytes of the text.
+    pub text: (usize, usize),
+    /// Numbers and bytes of the files written.
+    pub files: (usize, usize),
+    /// What the mission is made of: a count and the name of one.
+    pub parts: Vec<(usize, &'static str)>,
+    /// The robots' names.
+    pub robots: Vec<String>,
+    /// By model: its share of the inputs for rejection.
+    pub rejection: BTreeMap<String, JsonRejection>,
+    /// Variables a step that connectivity takes in the paper's own encoding.
+    pub papers_connectivity: usize,
+    /// What was searched.
+    pub encoding: Encoding,
+    /// How many cells the partition has; 0 without one.
+    pub cells: usize,
+}
+
+impl Run {
+    /// Notes a text that was read.
+    pub fn read(&mut self, source: &SourceFile, time: Duration) {
+        self.text = (source.text.lines().count(), source.text.len());
+        self.time_read = time;
+    }
+
+    /// Notes a mission that was loaded.
+    pub fn loaded(&mut self, mission: &Mission) {
+        let problem = &mission.problem;
+        self.parts = vec![
+            (problem.robots.len(), "robot"),
+            (problem.regions.len(), "region"),
+            (problem.blockers.len(), "blocker"),
+            (problem.bases.len(), "base"),
+            (problem.formulas.nodes().len(), "subformula"),
+        ];
+        self.robots = problem.robots.values().map(|r| r.name.clone()).collect();
+        let rejection =
+            |tube: &crate::tube::Tube| JsonRejection { beta: tube.beta, why: tube.choice.to_string() };
+        let models = problem.models.values().zip(mission.tubes.values());
+        self.rejection = models.map(|(model, tube)| (model.name.clone(), rejection(tube))).collect();
+        self.papers_connectivity = papers_connectivity(mission);
+    }
+
+    /// Notes files that were written.
+    pub fn wrote(&mut self, files: usize, bytes: usize, time: Duration) {
+        self.files = (files, bytes);
+        self.time_write = time;
+    }
+}
+
+/// A run that is noted while it goes on, where several threads can look.
+#[derive(Clone, Debug, Default)]
+pub struct Ledger(Arc<Mutex<Run>>);
+
+impl Ledger {
+    /// Notes something.
+    pub fn note(&self, what: impl FnOnce(&mut Run)) {
+        what(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// What was noted so far.
+    pub fn so_far(&self) -> Run {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// Counts and times of a run; times in seconds. What was not reached is 0.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct JsonStats {
+    /// What the Boolean part spoke of.
     encoding: Encoding,
+    /// Half-space literals.
     half_spaces: usize,
-    /// 0 without the paper's encoding.
+    /// Cells of the paper's encoding, 0 without it.
     cells: usize,
+    /// SAT variables.
     bool_vars: usize,
+    /// SAT variables that connectivity took.
     bool_vars_connectivity: usize,
+    /// SAT variables that connectivity would take in the paper's own encoding.
     bool_vars_connectivity_paper: usize,
+    /// SAT clauses, lemmas included.
     clauses: usize,
+    /// SAT queries.
     sat_calls: u64,
+    /// Linear programs.
     convex_calls: u64,
+    /// Candidates that the SAT solver proposed.
     candidates: u64,
+    /// Lemmas learned.
     lemmas: u64,
+    /// By robot: how many candidates its program has refused, alone or together with others'.
+    conflicts: BTreeMap<String, u64>,
+    /// By model: the share of the inputs that its feedback has.
+    rejection: BTreeMap<String, JsonRejection>,
+    /// Reading the mission's text.
+    time_read_s: f64,
+    /// Finding out what it means.
+    time_check_s: f64,
+    /// Tubes, and the first step.
     time_tube_s: f64,
+    /// Half-spaces, and testing candidates against geometry.
     time_geometry_s: f64,
+    /// Clauses.
     time_encode_s: f64,
+    /// The SAT solver.
     time_sat_s: f64,
+    /// Linear programs and their certificates.
     time_convex_s: f64,
+    /// Witnesses, and the exact check.
     time_verify_s: f64,
+    /// Making and writing files.
+    time_write_s: f64,
+    /// Everything since the start.
+    time_total_s: f64,
+    /// The most memory that the process had, in MiB; 0 where the system does not tell.
     peak_rss_mib: f64,
 }
 
-impl JsonStats {
-    /// The statistics of a search that ended.
-    pub fn new(mission: &Mission, solved: &Solved, time_tube: Duration) -> JsonStats {
-        let s = &solved.statistics;
-        JsonStats {
-            encoding: solved.encoding,
-            half_spaces: s.half_spaces,
-            cells: solved.cells,
-            bool_vars: s.bool_vars,
-            bool_vars_connectivity: s.bool_vars_connectivity,
-            bool_vars_connectivity_paper: papers_connectivity(mission) * (s.length + 1),
-            clauses: s.clauses,
-            sat_calls: s.sat_calls,
-            convex_calls: s.convex_calls,
-            candidates: s.candidates,
-            lemmas: s.lemmas,
-            time_tube_s: time_tube.as_secs_f64(),
-            time_geometry_s: s.time_geometry.as_secs_f64(),
-            time_encode_s: s.time_encode.as_secs_f64(),
-            time_sat_s: s.time_sat.as_secs_f64(),
-            time_convex_s: s.time_convex.as_secs_f64(),
-            time_verify_s: solved.time_verify.as_secs_f64(),
-            peak_rss_mib: peak_rss_mib(),
-        }
-    }
+/// A model's share of the inputs for the feedback, and why it has that.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct JsonRejection {
+    /// The share.
+    pub beta: f64,
+    /// The reason, for people.
+    pub why: String,
+}
 
-    /// What is known in the middle of a search.
-    pub fn of_progress(progress: &Progress) -> JsonStats {
+impl JsonStats {
+    /// The statistics of a run and its search, ended or not.
+    pub fn new(run: &Run, search: &Statistics, total: Duration) -> JsonStats {
+        let steps = if search.length > 0 { search.length + 1 } else { 0 };
         JsonStats {
-            candidates: progress.candidates,
-            lemmas: progress.lemmas,
+            encoding: run.encoding,
+            half_spaces: search.half_spaces,
+            cells: run.cells,
+            bool_vars: search.bool_vars,
+            bool_vars_connectivity: search.bool_vars_connectivity,
+            bool_vars_connectivity_paper: run.papers_connectivity * steps,
+            clauses: search.clauses,
+            sat_calls: search.sat_calls,
+            convex_calls: search.convex_calls,
+            candidates: search.candidates,
+            lemmas: search.lemmas,
+            conflicts: run.robots.iter().cloned().zip(search.conflicts.iter().copied()).collect(),
+            rejection: run.rejection.clone(),
+            time_read_s: run.time_read.as_secs_f64(),
+            time_check_s: run.time_check.as_secs_f64(),
+            time_tube_s: run.time_tube.as_secs_f64(),
+            time_geometry_s: search.time_geometry.as_secs_f64(),
+            time_encode_s: search.time_encode.as_secs_f64(),
+            time_sat_s: search.time_sat.as_secs_f64(),
+            time_convex_s: search.time_convex.as_secs_f64(),
+            time_verify_s: run.time_verify.as_secs_f64(),
+            time_write_s: run.time_write.as_secs_f64(),
+            time_total_s: total.as_secs_f64(),
             peak_rss_mib: peak_rss_mib(),
-            ..JsonStats::default()
         }
     }
 }
@@ -82,37 +198,9 @@ fn papers_connectivity(mission: &Mission) -> usize {
 }
 
 /// The most memory that the process had, in MiB; 0 where the system does not tell.
-fn peak_rss_mib() -> f64 {
+pub fn peak_rss_mib() -> f64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
     let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
     kib.map_or(0.0, |k| (k / 102.4).round() / 10.0)
-}
-
-impl fmt::Display for JsonStats {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ms = |s: f64| format!("{:.2} ms", s * 1e3);
-        writeln!(f, "half-spaces      {:>12}", self.half_spaces)?;
-        if self.encoding == Encoding::Paper {
-            writeln!(f, "cells            {:>12}", self.cells)?;
-        }
-        let paper = self.bool_vars_connectivity_paper;
-        writeln!(
-            f,
-            "variables        {:>12}   of these {} for connectivity (the paper: {paper})",
-            self.bool_vars, self.bool_vars_connectivity
-        )?;
-        writeln!(f, "clauses          {:>12}   of these {} lemmas", self.clauses, self.lemmas)?;
-        writeln!(f, "SAT calls        {:>12}   {}", self.sat_calls, ms(self.time_sat_s))?;
-        writeln!(f, "linear programs  {:>12}   {}", self.convex_calls, ms(self.time_convex_s))?;
-        for (what, time) in [
-            ("tubes", self.time_tube_s),
-            ("geometry", self.time_geometry_s),
-            ("encoding", self.time_encode_s),
-            ("exact check", self.time_verify_s),
-        ] {
-            writeln!(f, "{what:<17}{:>12}", ms(time))?;
-        }
-        write!(f, "peak memory      {:>9} MiB", self.peak_rss_mib)
-    }
 }

@@ -1,11 +1,12 @@
 //! `dosmc verify`: the independent checker.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde::Serialize;
 
-use super::output::{Output, plain_error};
+use super::output::{Output, giving_up, plain_error};
+use super::overseer::Overseer;
 use super::{Status, files, mission};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Overrides};
@@ -41,8 +42,15 @@ pub struct Examined {
 }
 
 /// Checks a plan against a mission.
-pub fn verify(plan: &Path, mission: &Path, overrides: &Overrides, output: &Output) -> Status {
-    examine(plan, mission, overrides, output).map_or_else(|status| status, |examined| tell(&examined, output))
+pub fn verify(
+    plan: &Path,
+    mission: &Path,
+    overrides: &Overrides,
+    timeout: Option<Duration>,
+    output: &Output,
+) -> Status {
+    let examined = examine(plan, mission, overrides, timeout, output);
+    examined.map_or_else(|status| status, |examined| tell(&examined, output))
 }
 
 /// Reads a plan and its mission, and checks the one against the other.
@@ -53,18 +61,26 @@ pub fn examine(
     plan: &Path,
     mission: &Path,
     overrides: &Overrides,
+    timeout: Option<Duration>,
     output: &Output,
 ) -> Result<Examined, Status> {
     if plan == Path::new("-") && mission == Path::new("-") {
         return Err(output.fail(super::usage("the plan and the mission can't both come from standard input")));
     }
     let problem = mission::problem_or_fail(mission, overrides, output)?;
-    let started = Instant::now();
-    let plan = read_plan(plan)
+    let overseer = Overseer::start(timeout, !output.quiet, giving_up(output.clone()));
+    overseer.enter("checking the plan exactly");
+    let checked = read_plan(plan).map(|plan| {
+        plan.map(|plan| {
+            let report = driver::verify(&problem, &plan);
+            (plan, report)
+        })
+    });
+    overseer.close();
+    let (plan, report) = checked
         .map_err(|problem| output.fail(problem))?
         .map_err(|refused| output.fail_with(refused, Status::Refused))?;
-    let report = driver::verify(&problem, &plan);
-    Ok(Examined { problem, plan, report, time: started.elapsed() })
+    Ok(Examined { problem, plan, report, time: overseer.elapsed() })
 }
 
 /// A plan from its file: the outer error is the file's, the inner one the plan's.

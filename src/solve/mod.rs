@@ -28,22 +28,27 @@ use crate::tube::Tubes;
 pub trait Watch: Send + Sync {
     /// Whether to stop now.
     fn stop(&self) -> bool;
+    /// Hears what is being done.
+    fn enter(&self, _: Phase) {}
     /// Hears of progress.
     fn progress(&self, progress: &Progress);
     /// The time since some fixed moment, for statistics only.
     fn now(&self) -> Duration;
 }
 
-/// How far a search is.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Progress {
-    /// The length being tried.
-    pub length: usize,
-    /// Candidates proposed so far.
-    pub candidates: u64,
-    /// Lemmas learned so far.
-    pub lemmas: u64,
+/// What is being done on the way to a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The half-spaces of regions and blockers are made.
+    Geometry,
+    /// Lengths are tried.
+    Search,
+    /// A plan that was found is given its witnesses and checked.
+    ExactCheck,
 }
+
+/// How far a search is: its counts and times so far.
+pub type Progress = Statistics;
 
 /// What a search may do.
 #[derive(Clone)]
@@ -75,9 +80,9 @@ pub enum Outcome {
 }
 
 /// Counts and times of a search.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Statistics {
-    /// The length tried last.
+    /// The length tried last; 0 before the first.
     pub length: usize,
     /// Half-space literals.
     pub half_spaces: usize,
@@ -95,6 +100,8 @@ pub struct Statistics {
     pub candidates: u64,
     /// Lemmas.
     pub lemmas: u64,
+    /// By robot: how many candidates its program has refused, alone or together with others'.
+    pub conflicts: Vec<u64>,
     /// Time spent encoding.
     pub time_encode: Duration,
     /// Time spent in the SAT solver.

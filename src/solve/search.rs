@@ -6,7 +6,7 @@ use rustsat::types::{Lit, Var};
 
 use crate::abstraction::Abstraction;
 use crate::encode::{Anywhere, Encoder, Justification, Switch};
-use crate::entity::Table;
+use crate::entity::{EntityId, Table};
 use crate::ir::{ModelId, Problem, RobotId};
 use crate::plan::Nominal;
 use crate::tube::Tubes;
@@ -18,7 +18,7 @@ use super::free::FreePrograms;
 use super::lemma::Lemma;
 use super::robots::{Refusal, Robots, Trajectory, systems};
 use super::sat::{Answer, Model, Sat};
-use super::{Options, Outcome, Progress, Reason, Statistics};
+use super::{Options, Outcome, Phase, Reason, Statistics};
 
 /// So many candidates that numbers can't decide, and a length is left undecided: each blocks itself
 /// alone, and the next length may be easy.
@@ -51,13 +51,19 @@ impl<'a> Search<'a> {
         abstraction: &'a Abstraction,
         options: &'a Options,
     ) -> Search<'a> {
+        let start = options.watch.now();
         let systems = systems(problem, tubes, abstraction);
-        Search { problem, abstraction, options, systems, statistics: Statistics::default() }
+        let time_convex = options.watch.now().saturating_sub(start);
+        let conflicts = vec![0; problem.robots.len()];
+        let statistics = Statistics { conflicts, time_convex, ..Statistics::default() };
+        Search { problem, abstraction, options, systems, statistics }
     }
 
     /// Tries the lengths in rising order.
     pub fn run(mut self) -> (Outcome, Statistics) {
+        let start = self.now();
         let mut encoder = Encoder::new(self.problem, self.abstraction, Box::new(Anywhere));
+        self.statistics.time_encode += self.now() - start;
         let mut sat = Sat::new(self.options.watch.clone());
         let mut demands = Demands::default();
         let mut undecided = false;
@@ -66,6 +72,7 @@ impl<'a> Search<'a> {
         let mut free = FreePrograms::new(self.problem, self.abstraction, &systems);
         let mut shiftable = Vec::new();
         let mut outcome = None;
+        self.options.watch.enter(Phase::Search);
         for length in from..=to {
             self.statistics.length = length;
             let robots = Robots::new(self.problem, self.abstraction, &systems, length);
@@ -98,6 +105,7 @@ impl<'a> Search<'a> {
         }
         let end = if undecided { Outcome::Unknown(Reason::Numerics) } else { Outcome::NoPlan };
         self.count(&encoder, &sat);
+        self.options.watch.progress(&self.statistics);
         (outcome.unwrap_or(end), self.statistics)
     }
 
@@ -147,9 +155,8 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
             if self.undecided > PATIENCE {
                 return End::Undecided;
             }
-            let statistics = &self.search.statistics;
-            let (candidates, lemmas) = (statistics.candidates, statistics.lemmas);
-            watch.progress(&Progress { length: self.length, candidates, lemmas });
+            self.search.count(self.encoder, self.sat);
+            self.search.options.watch.progress(&self.search.statistics);
             match self.query() {
                 Answer::Interrupted => return End::Stopped,
                 Answer::Core(core) => {
@@ -193,9 +200,11 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
     /// Tries a model: learns from it, demands more, or ends with a plan.
     fn candidate(&mut self, model: &Model) -> Option<Nominal> {
         self.search.statistics.candidates += 1;
+        let start = self.search.now();
         let truth = |lit: Lit| model.holds(lit);
         let back = self.encoder.loop_start(&truth, self.length)?;
         let justification = self.encoder.justify(&truth, self.length, back);
+        self.search.statistics.time_encode += self.search.now() - start;
         let start = self.search.now();
         let decided = self.robots.decide(&justification.leaves, back);
         self.search.statistics.convex_calls += std::mem::take(&mut self.robots.calls);
@@ -227,6 +236,9 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
 
     /// Adds the lemma of a refused cluster, and the same at other times and for other robots.
     fn learn(&mut self, refusal: &Refusal, back: usize) {
+        for robot in &refusal.robots {
+            self.search.statistics.conflicts[robot.index()] += 1;
+        }
         let lits: Vec<Lit> = refusal.constraints.iter().map(|(lit, _)| *lit).collect();
         let Some(conflict) = &refusal.conflict else {
             // Its literals forbid every superset, so a refutation says nothing any more.

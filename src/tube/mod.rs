@@ -28,7 +28,7 @@ use crate::entity::{EntityId, Table};
 use crate::ir::{Model, ModelId, Problem, Spans};
 
 pub use closing::{admits, residual_room};
-pub use shape::Tube;
+pub use shape::{Choice, Tube};
 
 use block::Block;
 use gains::{Gains, NoGains};
@@ -102,33 +102,42 @@ fn tube_of(problem: &Problem, id: ModelId) -> Result<Tube, Failure> {
     if !enlarged.drowned.is_empty() {
         return Err(Failure::Numerics { states: enlarged.drowned });
     }
-    let (beta, gains) = choose_share(model, &blocks)?;
-    let mut tube = assemble(model, &blocks, &gains, enlarged, beta);
+    let (share, gains) = choose_share(model, &blocks)?;
+    let mut tube = assemble(model, &blocks, &gains, enlarged, share);
     close(model, &mut tube)?;
     fits_workspace(model, &tube, &workspace)?;
     Ok(tube)
 }
 
-/// β and the gains of each block.
-fn choose_share(model: &Model, blocks: &[Block]) -> Result<(f64, Vec<Gains>), Failure> {
+/// β with its reason, and the gains of each block.
+fn choose_share(model: &Model, blocks: &[Block]) -> Result<((f64, Choice), Vec<Gains>), Failure> {
     if let Some(beta) = &model.rejection {
         let beta = beta.to_f64();
-        return Ok((beta, all_gains(model, blocks, beta, None)?));
+        return Ok(((beta, Choice::Asked), all_gains(model, blocks, beta, None)?));
     }
     let [largest, smaller @ ..] = SHARES;
     let best = all_gains(model, blocks, largest, None)?;
-    let mut chosen = (largest, best.clone());
+    let mut chosen = ((largest, Choice::Least), best.clone());
     for beta in smaller {
         let used = chosen.1.iter().map(|g| g.share).fold(0.0, f64::max);
         let gains =
             if used <= beta { Ok(chosen.1.clone()) } else { all_gains(model, blocks, beta, Some(&best)) };
         let tolerable = |gains: &[Gains]| gains.iter().zip(&best).all(|(g, b)| g.cost <= TOLERABLE * b.cost);
         match gains {
-            Ok(gains) if tolerable(&gains) => chosen = (beta, gains),
-            _ => break,
+            Ok(gains) if tolerable(&gains) => chosen = ((beta, Choice::Least), gains),
+            Ok(gains) => chosen.0.1 = Choice::Wider { share: beta, factor: widening(&gains, &best) },
+            Err(_) => chosen.0.1 = Choice::TooWeak { share: beta },
+        }
+        if chosen.0.0 != beta {
+            break;
         }
     }
     Ok(chosen)
+}
+
+/// How many times as wide a tube is as another, at its worst block.
+fn widening(gains: &[Gains], best: &[Gains]) -> f64 {
+    gains.iter().zip(best).filter(|(_, b)| b.cost > 0.0).map(|(g, b)| g.cost / b.cost).fold(1.0, f64::max)
 }
 
 /// The gains of each block; blocks with the same numbers share one computation. Where the gains
@@ -170,7 +179,13 @@ fn failure(block: &Block, beta: f64, why: NoGains) -> Failure {
 }
 
 /// Puts the blocks' gains together and runs the chain D_{i+1} = A D_i + B M_i in doubles.
-fn assemble(model: &Model, blocks: &[Block], gains: &[Gains], box_: margin::Enlarged, beta: f64) -> Tube {
+fn assemble(
+    model: &Model,
+    blocks: &[Block],
+    gains: &[Gains],
+    box_: margin::Enlarged,
+    share: (f64, Choice),
+) -> Tube {
     let (n, m) = (model.n(), model.m());
     let k = gains.iter().map(|g| g.m.len()).max().unwrap_or(1);
     let mut tube = Tube {
@@ -180,7 +195,8 @@ fn assemble(model: &Model, blocks: &[Block], gains: &[Gains], box_: margin::Enla
         half_width: box_.half_width,
         reserve: box_.reserve,
         residual_allowance: vec![0.0; n],
-        beta,
+        beta: share.0,
+        choice: share.1,
     };
     for (block, gains) in blocks.iter().zip(gains) {
         write_block(model, block, gains, &mut tube);

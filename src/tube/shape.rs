@@ -1,5 +1,7 @@
 //! A model's tube: the law e_t = Σ D_i ŵ_{t−1−i}, and the supports of what it can reach.
 
+use std::fmt;
+
 use nalgebra::DMatrix;
 
 use crate::geometry::Zonotope;
@@ -26,6 +28,42 @@ pub struct Tube {
     pub residual_allowance: Vec<f64>,
     /// The share of 𝒰's extent that the feedback was allowed.
     pub beta: f64,
+    /// Why that share.
+    pub choice: Choice,
+}
+
+/// Why a model's feedback has its share β of the inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// The mission says so.
+    Asked,
+    /// It is the least that is tried.
+    Least,
+    /// With the next smaller share the tube would be so many times as wide as with the largest.
+    Wider {
+        /// The smaller share.
+        share: f64,
+        /// The factor.
+        factor: f64,
+    },
+    /// With the next smaller share the feedback would not keep the error in bounds.
+    TooWeak {
+        /// The smaller share.
+        share: f64,
+    },
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Choice::Asked => write!(f, "as the mission says"),
+            Choice::Least => write!(f, "the least that is tried"),
+            Choice::Wider { share, factor } => {
+                write!(f, "with {share} the tube would be {factor:.2} times as wide as with 0.9")
+            }
+            Choice::TooWeak { share } => write!(f, "{share} is not enough against the disturbance"),
+        }
+    }
 }
 
 impl Tube {

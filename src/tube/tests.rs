@@ -340,11 +340,23 @@ fn hardly_controllable_models_are_errors() {
 #[test]
 fn the_share_is_the_least_that_costs_little() {
     let mut model = cart((-0.2, 0.2));
-    let share = tube_for(model.clone()).unwrap().beta;
+    let tube = tube_for(model.clone()).unwrap();
+    let share = tube.beta;
+    let next_smaller = exact(share) - Rational::ratio(1, 5);
+    match tube.choice {
+        Choice::Wider { share: smaller, factor } => assert!(factor > 1.1 && smaller < share, "{smaller}"),
+        Choice::TooWeak { share: smaller } => {
+            let weaker = Model { rejection: Some(exact(smaller)), ..model.clone() };
+            assert!(smaller < share && tube_for(weaker).is_err());
+        }
+        Choice::Least => assert_eq!(share, 0.3),
+        Choice::Asked => panic!("the mission does not say"),
+    }
     let width = |model: &Model| tube_for(model.clone()).unwrap().state_half_width(0);
     let chosen = width(&model);
     model.rejection = Some(Rational::ratio(9, 10));
+    assert_eq!(tube_for(model.clone()).unwrap().choice, Choice::Asked);
     assert!(chosen <= 1.1 * width(&model) + 1e-9);
-    model.rejection = Some(exact(share) - Rational::ratio(1, 5));
+    model.rejection = Some(next_smaller);
     assert!(tube_for(model.clone()).is_err() || width(&model) >= chosen);
 }

@@ -1,0 +1,139 @@
+//! The progress line of a long command: one line at the bottom of a terminal, gone at the end.
+//!
+//! It is drawn over itself in one write, with a carriage return and blanks alone: nothing flickers,
+//! and every terminal knows how.
+
+use std::io::{self, Write};
+use std::time::Duration;
+
+use terminal_size::terminal_size_of;
+
+use crate::diag::printable;
+use crate::solve::Progress;
+
+/// The longest name that is shown whole.
+const LONGEST_NAME: usize = 16;
+/// What turns at the beginning of the line while there is nothing else to see.
+const FRAMES: [char; 6] = ['⠏', '⠛', '⠹', '⠼', '⠶', '⠧'];
+
+/// A line that is drawn over and over.
+#[derive(Debug, Default)]
+pub struct Line {
+    /// How many columns are taken.
+    taken: usize,
+    drawn: usize,
+}
+
+impl Line {
+    /// Draws the line in place of what it was.
+    pub fn draw(&mut self, text: &str) {
+        let columns = terminal_size_of(io::stderr()).map_or(80, |(width, _)| usize::from(width.0));
+        let frame = FRAMES[self.drawn % FRAMES.len()];
+        self.drawn += 1;
+        // A character in the last column makes some terminals begin another line.
+        let line = cut(&format!("{frame} {text}"), columns.saturating_sub(1));
+        let length = line.chars().count();
+        self.write(&format!("\r{line}{}", " ".repeat(self.taken.saturating_sub(length))));
+        self.taken = length;
+    }
+
+    /// Takes the line away, until it is drawn again.
+    pub fn clear(&mut self) {
+        if self.taken > 0 {
+            self.write(&format!("\r{}\r", " ".repeat(self.taken)));
+            self.taken = 0;
+        }
+    }
+
+    fn write(&self, text: &str) {
+        // Nobody is left to see it when standard error is gone.
+        let _ = io::stderr().lock().write_all(text.as_bytes());
+    }
+}
+
+/// A text of so many characters at most.
+fn cut(text: &str, columns: usize) -> String {
+    if text.chars().count() <= columns {
+        return text.into();
+    }
+    let kept: String = text.chars().take(columns.saturating_sub(1)).collect();
+    if columns > 0 { format!("{kept}…") } else { kept }
+}
+
+/// `1.2 s · making tubes`
+pub fn said(stage: &str, elapsed: Duration) -> String {
+    format!("{} · {stage}", clock(elapsed))
+}
+
+/// `8.9 s · length 12 · 345 candidates · 67 lemmas · R3 refused 21 times`
+pub fn search(reached: &Progress, robots: &[String], elapsed: Duration) -> String {
+    let mut parts = vec![
+        clock(elapsed),
+        format!("length {}", reached.length),
+        format!("{} candidates", reached.candidates),
+        format!("{} lemmas", reached.lemmas),
+    ];
+    // The first of those with the most, so that the name stays while numbers grow together.
+    let most = reached.conflicts.iter().max().copied().unwrap_or(0);
+    let robot = reached.conflicts.iter().position(|&c| c == most).and_then(|i| robots.get(i));
+    if let Some(name) = robot.filter(|_| most > 0) {
+        let times = if most == 1 { "once".into() } else { format!("{most} times") };
+        parts.push(format!("{} refused {times}", shortened(name)));
+    }
+    parts.join(" · ")
+}
+
+/// A name that can be shown, and is not too long to be.
+fn shortened(name: &str) -> String {
+    cut(&printable(name), LONGEST_NAME)
+}
+
+/// `8.9 s`, `59 s`, `12:34 min`, `2:05 h`
+fn clock(elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs();
+    match seconds {
+        0..10 => format!("{seconds}.{} s", elapsed.subsec_millis() / 100),
+        10..60 => format!("{seconds} s"),
+        60..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
+        _ => format!("{}:{:02} h", seconds / 3600, seconds / 60 % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_long_is_cut() {
+        assert_eq!(cut("a·b·c", 5), "a·b·c");
+        assert_eq!(cut("a·b·c", 4), "a·b…");
+        assert_eq!((cut("ab", 1), cut("ab", 0)), ("…".into(), String::new()));
+    }
+
+    #[test]
+    fn the_line_says_how_far_the_search_is_within_eighty_columns() {
+        let robots = ["R1".to_string(), "a_robot_with_quite_a_long_name".to_string()];
+        let reached = Progress {
+            length: 128,
+            candidates: 123_456,
+            lemmas: 34_567,
+            conflicts: vec![7, 9999],
+            ..Progress::default()
+        };
+        let line = search(&reached, &robots, Duration::from_secs(754));
+        let expected =
+            "12:34 min · length 128 · 123456 candidates · 34567 lemmas · a_robot_with_qu… refused 9999 times";
+        assert_eq!(line, expected);
+        let usual =
+            Progress { length: 12, candidates: 345, lemmas: 67, conflicts: vec![21, 21], ..reached.clone() };
+        let line = search(&usual, &robots, Duration::from_millis(8_950));
+        assert_eq!(line, "8.9 s · length 12 · 345 candidates · 67 lemmas · R1 refused 21 times");
+        assert!(line.chars().count() + 2 <= 80);
+        let fresh = Progress { length: 1, ..Progress::default() };
+        assert_eq!(
+            search(&fresh, &[], Duration::from_secs(7199)),
+            "1:59 h · length 1 · 0 candidates · 0 lemmas"
+        );
+        assert_eq!(said("making tubes", Duration::from_millis(59_999)), "59 s · making tubes");
+    }
+}
