@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::abstraction::{self, Abstraction, Partition};
+use crate::abstraction::{self, Abstraction, Fineness, Partition};
 use crate::back::{self, Artifact, Emit};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
@@ -186,16 +186,28 @@ pub fn solve(mission: &Mission, watch: &Arc<dyn Watch>) -> Solved {
 
 /// As [`solve`], with a choice of what the Boolean part speaks of.
 ///
+/// Cells are coarse at first; where there is no plan over them, they are cut once more.
+///
 /// # Errors
 /// [`TooFine`] when the paper's partition would have too many cells.
 pub fn solve_with(mission: &Mission, encoding: Encoding, watch: &Arc<dyn Watch>) -> Result<Solved, TooFine> {
-    let Mission { problem, tubes, .. } = mission;
-    match encoding {
-        Encoding::HalfSpaces => Ok(solve(mission, watch)),
-        Encoding::Paper => search_with(mission, watch, encoding, &|backoff| {
-            Abstraction::new(problem, tubes, backoff).with_cells(problem)
-        }),
+    if encoding == Encoding::HalfSpaces {
+        return Ok(solve(mission, watch));
     }
+    let Mission { problem, tubes, .. } = mission;
+    let search = |fineness| {
+        let cells = |backoff| Abstraction::new(problem, tubes, backoff).with_cells(problem, fineness);
+        search_with(mission, watch, encoding, &cells)
+    };
+    let coarse = search(Fineness::Coarse)?;
+    let may_be_finer = problem.dimension == 2 && !problem.blockers.is_empty();
+    if !(may_be_finer && matches!(coarse.answer, Answer::NoPlan(_))) {
+        return Ok(coarse);
+    }
+    // Cells that would be too many leave the answer as it is, for the cells that there were.
+    let Ok(mut fine) = search(Fineness::Fine) else { return Ok(coarse) };
+    fine.statistics.add_work(&coarse.statistics);
+    Ok(fine)
 }
 
 fn search_with<E>(

@@ -23,7 +23,7 @@ pub use bounds::{Bounds, MixedRow};
 pub use clearance::{Body, Plane};
 pub use directions::{Direction, DirectionId, Directions};
 pub use error_set::ErrorSet;
-pub use partition::{Cell, CellId, MOST_CELLS, Partition, Place, TooFine};
+pub use partition::{Cell, CellId, Fineness, MOST_CELLS, Partition, Place, TooFine};
 pub use passage::Passage;
 pub use solid::{Owner, Solid, SolidId};
 pub use start::inspect;
@@ -134,8 +134,8 @@ impl Abstraction {
     ///
     /// # Errors
     /// [`TooFine`] when there would be too many cells.
-    pub fn with_cells(mut self, problem: &Problem) -> Result<Abstraction, TooFine> {
-        self.partition = Some(Partition::new(problem, &self)?);
+    pub fn with_cells(mut self, problem: &Problem, fineness: Fineness) -> Result<Abstraction, TooFine> {
+        self.partition = Some(Partition::new(problem, &self, fineness)?);
         Ok(self)
     }
 

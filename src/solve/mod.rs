@@ -112,6 +112,20 @@ pub struct Statistics {
     pub time_geometry: Duration,
 }
 
+impl Statistics {
+    /// Adds the work of an earlier search for the same mission.
+    pub fn add_work(&mut self, earlier: &Statistics) {
+        self.sat_calls += earlier.sat_calls;
+        self.convex_calls += earlier.convex_calls;
+        self.candidates += earlier.candidates;
+        self.lemmas += earlier.lemmas;
+        self.time_encode += earlier.time_encode;
+        self.time_sat += earlier.time_sat;
+        self.time_convex += earlier.time_convex;
+        self.time_geometry += earlier.time_geometry;
+    }
+}
+
 /// Searches the horizon for a plan, shortest first.
 pub fn solve(
     problem: &Problem,

@@ -5,7 +5,7 @@
 //! cut into those cells only that it really meets: the copies of the regions that goals name, the
 //! shadows that blockers throw from the bases, and the facets of blockers that have very many.
 
-use super::{Cell, Side, TooFine};
+use super::{Cell, Fineness, Side, TooFine};
 use crate::abstraction::{Abstraction, DirectionId, HalfSpace, Owner, SolidId, Stage};
 use crate::entity::EntityId;
 use crate::ir::{BaseId, ModelId, Problem, RegionId};
@@ -18,6 +18,7 @@ pub(super) struct Knife<'a> {
     pub(super) problem: &'a Problem,
     pub(super) abstraction: &'a Abstraction,
     pub(super) model: ModelId,
+    pub(super) fineness: Fineness,
     /// What is thinner does not count.
     pub(super) grain: f64,
     /// The most cells that there may be.
@@ -60,6 +61,11 @@ impl Knife<'_> {
             }
             cells = self.counted(free)?;
         }
+        if self.fineness == Fineness::Fine {
+            for solid in blockers() {
+                cells = self.cut_corners(cells, solid)?;
+            }
+        }
         for &region in regions {
             for piece in self.abstraction.inside(self.model, region) {
                 cells = self.cut_all(cells, &piece)?;
@@ -76,6 +82,23 @@ impl Knife<'_> {
             }
         }
         Ok(cells)
+    }
+
+    /// Cuts the cells that touch a blocker along its oblique planes, so that robots can get, and see,
+    /// round its corners.
+    fn cut_corners(&self, cells: Vec<Cell>, solid: SolidId) -> Result<Vec<Cell>, TooFine> {
+        let faces = self.abstraction.solids[solid].faces.iter();
+        let oblique: Vec<HalfSpace> = faces
+            .filter(|(stage, _)| *stage == Stage::Oblique)
+            .map(|(_, direction)| self.beyond(solid, *direction))
+            .collect();
+        let mut around = self.inflated(solid);
+        around.iter_mut().for_each(|h| h.offset += self.abstraction.gap);
+        let (near, mut far): (Vec<Cell>, Vec<Cell>) =
+            cells.into_iter().partition(|cell| self.common(cell, &around).is_some());
+        let cut = |parts: Result<Vec<Cell>, TooFine>, plane| self.cut_all(parts?, &[plane]);
+        far.extend(oblique.into_iter().fold(Ok(near), cut)?);
+        self.counted(far)
     }
 
     fn blockers(&self) -> impl Iterator<Item = crate::ir::BlockerId> + use<> {

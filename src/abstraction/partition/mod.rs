@@ -40,6 +40,15 @@ pub const MOST_CELLS: usize = 4000;
 /// Cells thinner than this share of the gap do not count.
 const GRAIN: f64 = 0.05;
 
+/// How small the cells are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fineness {
+    /// As the facets of blockers, regions and shadows cut them.
+    Coarse,
+    /// Cut round the corners of blockers, too: plans get shorter, and searches several times longer.
+    Fine,
+}
+
 /// Why there is no partition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the paper's partition has more than {most} cells here; the default encoding, half-spaces, has none")]
@@ -86,8 +95,12 @@ impl Partition {
     ///
     /// # Errors
     /// [`TooFine`] when a model has more than [`MOST_CELLS`] cells.
-    pub fn new(problem: &Problem, abstraction: &Abstraction) -> Result<Partition, TooFine> {
-        let mut merging = drafts(problem, abstraction)?;
+    pub fn new(
+        problem: &Problem,
+        abstraction: &Abstraction,
+        fineness: Fineness,
+    ) -> Result<Partition, TooFine> {
+        let mut merging = drafts(problem, abstraction, fineness)?;
         merging.relate();
         merging.run();
         Ok(collect(problem, merging))
@@ -131,12 +144,16 @@ impl Partition {
 }
 
 /// The unmerged cells, with all places.
-fn drafts<'a>(problem: &Problem, abstraction: &'a Abstraction) -> Result<Merging<'a>, TooFine> {
+fn drafts<'a>(
+    problem: &Problem,
+    abstraction: &'a Abstraction,
+    fineness: Fineness,
+) -> Result<Merging<'a>, TooFine> {
     let grain = GRAIN * abstraction.gap;
     let sight = Sight::new(problem, abstraction);
     let (mut drafts, mut rooms) = (Vec::new(), Vec::new());
     for model in problem.models.ids() {
-        let knife = Knife { problem, abstraction, model, grain, most: MOST_CELLS };
+        let knife = Knife { problem, abstraction, model, fineness, grain, most: MOST_CELLS };
         let regions = asked(problem, model);
         for cell in knife.carve(&regions)? {
             let labels = regions.iter().map(|r| knife.label(&cell, *r)).collect();

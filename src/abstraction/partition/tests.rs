@@ -42,16 +42,21 @@ struct Cut {
 }
 
 fn cut(text: &str) -> Cut {
+    cut_as(text, Fineness::Coarse)
+}
+
+fn cut_as(text: &str, fineness: Fineness) -> Cut {
     let source = SourceFile::new("mission.dosm", text);
     let mission = driver::load(&source, &Overrides::default(), &mut Diagnostics::new()).unwrap();
     let abstraction = Abstraction::new(&mission.problem, &mission.tubes, 1.0);
-    let partition = Partition::new(&mission.problem, &abstraction).unwrap();
+    let partition = Partition::new(&mission.problem, &abstraction, fineness).unwrap();
     Cut { problem: mission.problem, abstraction, partition }
 }
 
 impl Cut {
     fn all() -> Vec<Cut> {
-        [TABLE, WALL, SLANTED, ROUND, SPACE].into_iter().map(cut).collect()
+        let coarse = [TABLE, WALL, SLANTED, ROUND, SPACE].into_iter().map(cut);
+        coarse.chain([cut_as(TABLE, Fineness::Fine)]).collect()
     }
 
     fn blockers(&self, links: bool) -> Vec<SolidId> {
@@ -219,7 +224,7 @@ fn relations_are_right_at_every_pair_of_points() {
 fn merging_loses_no_label_no_sight_and_no_move() {
     for text in [TABLE, WALL, SLANTED, SPACE] {
         let cut = cut(text);
-        let mut fine = drafts(&cut.problem, &cut.abstraction).unwrap();
+        let mut fine = drafts(&cut.problem, &cut.abstraction, Fineness::Coarse).unwrap();
         fine.relate();
         let cells: Vec<(usize, Draft)> =
             fine.drafts.iter().enumerate().filter_map(|(i, d)| Some((i, d.clone()?))).collect();
@@ -279,6 +284,7 @@ fn too_many_cells_are_refused() {
         problem: &mission.problem,
         abstraction: &abstraction,
         model: ModelId::new(0),
+        fineness: Fineness::Coarse,
         grain: GRAIN * abstraction.gap,
         most,
     };
