@@ -172,6 +172,8 @@ pub struct Solved {
     pub encoding: Encoding,
     /// How many cells the partition has; 0 without one.
     pub cells: usize,
+    /// The outlines of the first robot's cells in the plane, to be drawn.
+    pub outlines: Vec<Vec<[f64; 2]>>,
 }
 
 /// How much wider the margins are at each attempt, when the exact check refuses a plan.
@@ -223,6 +225,7 @@ fn search_with<E>(
         time_verify: Duration::ZERO,
         encoding,
         cells: 0,
+        outlines: Vec::new(),
     };
     for backoff in BACKOFFS {
         watch.enter(Phase::Geometry);
@@ -230,6 +233,7 @@ fn search_with<E>(
         let abstraction = abstract_(backoff)?;
         let time_abstraction = watch.now().saturating_sub(started);
         solved.cells = cells(&abstraction);
+        solved.outlines = outlines(&mission.problem, &abstraction);
         let (attempt, statistics) = attempt(mission, watch, &abstraction, &mut solved.time_verify);
         solved.statistics = statistics;
         solved.statistics.time_geometry += time_abstraction;
@@ -307,6 +311,12 @@ fn scope(mission: &Mission, abstraction: &Abstraction) -> Scope {
 
 fn cells(abstraction: &Abstraction) -> usize {
     abstraction.partition.as_ref().map_or(0, Partition::count)
+}
+
+fn outlines(problem: &Problem, abstraction: &Abstraction) -> Vec<Vec<[f64; 2]>> {
+    let first = problem.robots.values().next().map(|robot| robot.model);
+    let partition = abstraction.partition.as_ref();
+    partition.zip(first).map_or_else(Vec::new, |(partition, model)| partition.outlines(model))
 }
 
 /// Checks a plan against a problem, in exact arithmetic.

@@ -176,6 +176,7 @@ mod tests {
             convex_calls: 120,
             candidates: 43,
             lemmas: 35,
+            not_clear: 0,
             conflicts: vec![0, 2, 9, 1, 9, 3, 4, 5, 6, 7],
             time_encode: ms(12),
             time_sat: ms(20),

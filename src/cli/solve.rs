@@ -11,7 +11,7 @@ use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
 use super::stats::{JsonStats, Ledger, peak_rss_mib};
 use super::{Status, mission, phases, png};
-use crate::back::svg;
+use crate::back::{Artifact, svg};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
 use crate::plan::{self, Plan};
@@ -99,8 +99,7 @@ impl Destination {
 
     /// Writes the pictures and the plan, the plan itself last: where it is, all is. Gives their paths
     /// and how many bytes they are.
-    fn write(&self, mission: &driver::Mission, plan: &Plan) -> Result<(Vec<String>, usize), Diagnostic> {
-        let picture = svg::draw(&mission.problem, plan, &svg::Options::default());
+    fn write(&self, picture: &Artifact, plan: &Plan) -> Result<(Vec<String>, usize), Diagnostic> {
         let pixels = if self.png { Some(png::from_svg(&picture.contents)?) } else { None };
         let text = plan::json::write(plan);
         let mut files = vec![(svg::NAME, picture.contents.as_bytes())];
@@ -138,12 +137,13 @@ pub fn solve(
     let watch: Arc<dyn Watch> = Arc::<Overseer>::clone(&overseer);
     let solved = driver::solve_with(&mission, settings.encoding, &watch);
     overseer.close();
-    let Solved { answer: found, statistics, time_verify, cells, .. } = match solved {
+    let Solved { answer: found, statistics, time_verify, cells, outlines, .. } = match solved {
         Ok(solved) => solved,
         Err(too_fine) => return output.fail(super::usage(too_fine.to_string())),
     };
     ledger.note(|run| (run.time_verify, run.cells) = (time_verify, cells));
-    let ending = Ending { mission: &mission, statistics, overseer: &overseer, ledger: &ledger, output };
+    let (mission, overseer, ledger) = (&mission, &*overseer, &ledger);
+    let ending = Ending { mission, statistics, outlines, overseer, ledger, output };
     ending.answer(found, &destination).unwrap_or_else(|status| status)
 }
 
@@ -151,6 +151,8 @@ pub fn solve(
 struct Ending<'a> {
     mission: &'a driver::Mission,
     statistics: Statistics,
+    /// The cells to draw.
+    outlines: Vec<svg::Cell>,
     overseer: &'a Overseer,
     ledger: &'a Ledger,
     output: &'a Output,
@@ -194,8 +196,8 @@ impl Ending<'_> {
 
     fn plan(&self, plan: &Plan, shortest: bool, destination: &Destination) -> Result<Status, Status> {
         let started = Instant::now();
-        let (files, size) =
-            destination.write(self.mission, plan).map_err(|problem| self.output.fail(problem))?;
+        let picture = svg::draw(&self.mission.problem, plan, &svg::Options { cells: &self.outlines });
+        let (files, size) = destination.write(&picture, plan).map_err(|problem| self.output.fail(problem))?;
         self.ledger.note(|run| run.wrote(files.len(), size, started.elapsed()));
         self.note_phases();
         self.output.say(&found(plan, shortest, self.ledger.so_far().encoding, &files))?;

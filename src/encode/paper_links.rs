@@ -19,6 +19,17 @@ struct Paths {
 }
 
 impl Paths {
+    fn new(circuit: &mut Circuit, robots: usize, bases: usize) -> Paths {
+        let nodes = robots + bases;
+        let longest = nodes.saturating_sub(1);
+        let mut paths = Paths { robots, nodes, levels: Vec::new() };
+        for _ in 1..=longest {
+            paths.levels.push((0..nodes * longest / 2).map(|_| circuit.growing_and()).collect());
+        }
+        (1..=longest).for_each(|links| paths.define(circuit, links));
+        paths
+    }
+
     fn pair(&self, a: usize, b: usize) -> usize {
         let (i, j) = (a.min(b), a.max(b));
         i * self.nodes - i * (i + 1) / 2 + j - i - 1
@@ -54,13 +65,8 @@ impl StepLinks {
     /// As [`new`](StepLinks::new), with the paper's variables. `variables` counts these alone.
     pub(super) fn paper(circuit: &mut Circuit, robots: usize, bases: usize, hops: usize) -> StepLinks {
         let nodes = robots + bases;
-        let longest = nodes.saturating_sub(1);
-        let mut paths = Paths { robots, nodes, levels: Vec::new() };
-        let pairs = nodes * longest / 2;
-        for _ in 1..=longest {
-            paths.levels.push((0..pairs).map(|_| circuit.growing_and()).collect());
-        }
-        (1..=longest).for_each(|links| paths.define(circuit, links));
+        let paths = Paths::new(circuit, robots, bases);
+        let longest = paths.levels.len();
         for robot in 0..robots {
             let counts = 1..=hops.min(longest);
             let ways = counts.flat_map(|h| (robots..nodes).map(move |base| (base, h)));
@@ -74,7 +80,135 @@ impl StepLinks {
             bases,
             pairs: robot_pairs.map(|(i, j)| paths.path(i, j, 1)).collect(),
             direct: base_pairs.map(|(i, b)| paths.path(i, b, 1)).collect(),
-            variables: pairs * longest,
+            variables: paths.levels.iter().map(Vec::len).sum(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rustsat::solvers::{SolveIncremental, SolverResult};
+    use rustsat_batsat::BasicSolver;
+
+    /// The links of one step, as a set of pairs of nodes, robots before bases.
+    struct Graph {
+        robots: usize,
+        nodes: usize,
+        links: Vec<(usize, usize)>,
+    }
+
+    impl Graph {
+        /// All graphs without links between bases.
+        fn all(robots: usize, bases: usize) -> impl Iterator<Item = Graph> {
+            let nodes = robots + bases;
+            let pairs: Vec<(usize, usize)> =
+                (0..robots).flat_map(|i| (i + 1..nodes).map(move |j| (i, j))).collect();
+            (0..1u32 << pairs.len()).map(move |choice| {
+                let chosen = pairs.iter().enumerate().filter(|(at, _)| choice >> at & 1 == 1);
+                Graph { robots, nodes, links: chosen.map(|(_, pair)| *pair).collect() }
+            })
+        }
+
+        fn linked(&self, a: usize, b: usize) -> bool {
+            self.links.contains(&(a.min(b), a.max(b)))
+        }
+
+        /// Whether a walk of so many links leads from a to b, with robots alone in between that are
+        /// neither of the two.
+        fn walk(&self, a: usize, b: usize, links: usize) -> bool {
+            if links == 1 {
+                return self.linked(a, b);
+            }
+            let mut relays = (0..self.robots).filter(|&r| r != a && r != b);
+            relays.any(|r| self.linked(r, b) && self.walk(a, r, links - 1))
+        }
+
+        /// Whether each robot reaches a base by so many links, breadth first.
+        fn connected(&self, hops: usize) -> bool {
+            let mut reached: Vec<bool> = (0..self.nodes).map(|node| node >= self.robots).collect();
+            for _ in 0..hops.min(self.nodes) {
+                let before = reached.clone();
+                for &(a, b) in &self.links {
+                    reached[a] |= before[b];
+                    reached[b] |= before[a];
+                }
+            }
+            reached.into_iter().all(|r| r)
+        }
+    }
+
+    fn solver(circuit: &mut Circuit) -> BasicSolver {
+        let mut solver = BasicSolver::default();
+        circuit.write_clauses(&mut solver).unwrap();
+        solver
+    }
+
+    fn satisfiable(solver: &mut BasicSolver, assumptions: &[Lit]) -> bool {
+        solver.solve_assumps(assumptions).unwrap() == SolverResult::Sat
+    }
+
+    fn for_all_graphs(visit: impl Fn(&Graph)) {
+        for (robots, bases) in [(2, 1), (3, 1), (2, 2)] {
+            Graph::all(robots, bases).for_each(|graph| visit(&graph));
+        }
+    }
+
+    /// Erratum P2 and P9: an isolated robot reaches nobody, and two robots can't vouch for each other.
+    #[test]
+    fn erratum_p9_robots_are_connected_exactly_if_a_search_says_so() {
+        for_all_graphs(|graph| {
+            for hops in [1, 2, usize::MAX] {
+                let mut circuit = Circuit::default();
+                let bases = graph.nodes - graph.robots;
+                let links = StepLinks::paper(&mut circuit, graph.robots, bases, hops);
+                let forced: Vec<Lit> = links
+                    .iter()
+                    .map(|(link, lit)| {
+                        let (a, b) = match link {
+                            super::super::Link::Robots(a, b) => (index(a), index(b)),
+                            super::super::Link::Base(a, b) => (index(a), graph.robots + index(b)),
+                        };
+                        if graph.linked(a, b) { lit } else { !lit }
+                    })
+                    .collect();
+                let connected = graph.connected(hops);
+                assert_eq!(
+                    satisfiable(&mut solver(&mut circuit), &forced),
+                    connected,
+                    "{:?} {hops}",
+                    graph.links
+                );
+            }
+        });
+    }
+
+    fn index(id: impl crate::entity::EntityId) -> usize {
+        id.index()
+    }
+
+    /// Erratum P8: a base is nobody's relay.
+    #[test]
+    fn erratum_p8_paths_lead_over_robots_alone() {
+        for_all_graphs(|graph| {
+            let mut circuit = Circuit::default();
+            let paths = Paths::new(&mut circuit, graph.robots, graph.nodes - graph.robots);
+            let mut solver = solver(&mut circuit);
+            for links in 1..graph.nodes {
+                for a in 0..graph.robots {
+                    for b in a + 1..graph.nodes {
+                        let mut assumptions = vec![paths.path(a, b, links)];
+                        for i in 0..graph.robots {
+                            for j in i + 1..graph.nodes {
+                                let lit = paths.path(i, j, 1);
+                                assumptions.push(if graph.linked(i, j) { lit } else { !lit });
+                            }
+                        }
+                        let joined = satisfiable(&mut solver, &assumptions);
+                        assert_eq!(joined, graph.walk(a, b, links), "{a} {b} {links}: {:?}", graph.links);
+                    }
+                }
+            }
+        });
     }
 }

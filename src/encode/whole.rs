@@ -134,6 +134,10 @@ impl Encoder<'_> {
     }
 
     fn demand_clear(&mut self, step: usize, solid: SolidId) {
+        // Cells that robots may move between, and cells that see each other, are clear of everything.
+        if self.cells.is_some() {
+            return;
+        }
         let Owner::Blocker(blocker) = self.abstraction.solids[solid].owner else { return };
         for robot in self.problem.robots.ids() {
             let ends = vec![End::Robot(robot, step), End::Robot(robot, step + 1)];

@@ -102,6 +102,8 @@ pub struct Statistics {
     pub lemmas: u64,
     /// By robot: how many candidates its program has refused, alone or together with others'.
     pub conflicts: Vec<u64>,
+    /// Moves and links of candidates that what was encoded so far let pass, though they are not clear.
+    pub not_clear: u64,
     /// Time spent encoding.
     pub time_encode: Duration,
     /// Time spent in the SAT solver.
@@ -119,6 +121,9 @@ impl Statistics {
         self.convex_calls += earlier.convex_calls;
         self.candidates += earlier.candidates;
         self.lemmas += earlier.lemmas;
+        self.not_clear += earlier.not_clear;
+        let refused = self.conflicts.iter_mut().zip(&earlier.conflicts);
+        refused.for_each(|(sum, more)| *sum += more);
         self.time_encode += earlier.time_encode;
         self.time_sat += earlier.time_sat;
         self.time_convex += earlier.time_convex;

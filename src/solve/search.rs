@@ -223,6 +223,8 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         if violations.is_empty() {
             return Some(self.found(&trajectories, back, justification));
         }
+        let not_clear = violations.iter().filter(|v| !matches!(v, Violation::Apart(..))).count();
+        self.search.statistics.not_clear += not_clear as u64;
         let start = self.search.now();
         self.demand(violations, &justification, back);
         self.search.statistics.time_encode += self.search.now() - start;

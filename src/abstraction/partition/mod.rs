@@ -116,6 +116,15 @@ impl Partition {
         &self.models[model].cells
     }
 
+    /// The outlines of a model's cells in the plane, counter-clockwise; none in space.
+    pub fn outlines(&self, model: ModelId) -> Vec<Vec<[f64; 2]>> {
+        let outline = |cell: &Cell| {
+            let corners: Option<Vec<[f64; 2]>> = cell.corners().map(|p| p.try_into().ok()).collect();
+            corners.map(super::clearance::convex_hull)
+        };
+        self.models[model].cells.values().filter_map(outline).collect()
+    }
+
     /// Whether a cell is certainly in a region, and whether it is certainly out of it; neither for a
     /// region that no goal asks of the model.
     pub fn label(&self, model: ModelId, cell: CellId, region: RegionId) -> (bool, bool) {

@@ -5,6 +5,9 @@ use super::*;
 use crate::abstraction::{Body, Owner, SolidId, dot};
 use crate::diag::Diagnostics;
 use crate::driver::{self, Overrides};
+use crate::exact::Rational;
+use crate::geometry::Polytope;
+use crate::ir::Piece;
 use crate::source::SourceFile;
 
 const TABLE: &str = include_str!("../../../examples/paper/table1-4.dosm");
@@ -218,6 +221,45 @@ fn relations_are_right_at_every_pair_of_points() {
         }
         assert!(moves > 1000 && sights > 1000, "{moves} moves, {sights} sights");
     }
+}
+
+/// Adj_c, both ways, by other means: the exact hull of both sets of positions against the jammers.
+#[test]
+fn sight_is_that_of_exact_hulls() {
+    let cut = cut(TABLE);
+    let model = ModelId::new(0);
+    let exact = |x: f64| Rational::from_f64(x).unwrap();
+    let grown: Vec<Rational> = vec![exact(cut.abstraction.gap); 2];
+    let cells: Vec<(CellId, Vec<Vec<Rational>>)> = cut
+        .partition
+        .cells(model)
+        .iter()
+        .map(|(id, cell)| {
+            let corners: Vec<Vec<f64>> = cell.corners().map(<[f64]>::to_vec).collect();
+            let inflated = cut.abstraction.inflated(model, &corners);
+            (id, inflated.into_iter().map(|p| p.map(exact).to_vec()).collect())
+        })
+        .collect();
+    let mut numbers = Numbers(6);
+    let mut counts = [0, 0];
+    for _ in 0..500 {
+        let (a, b) = (&cells[numbers.below(cells.len())], &cells[numbers.below(cells.len())]);
+        let hull = Polytope::hull(&[&a.1[..], &b.1[..]].concat()).unwrap();
+        let sees = cut.partition.sees(Place::Cell(model, a.0), Place::Cell(model, b.0));
+        counts[usize::from(sees)] += 1;
+        let jammers = || {
+            cut.problem.blockers.values().flat_map(|j| &j.shape.pieces).filter_map(|piece| match piece {
+                Piece::Polytope(p) => Some(p),
+                Piece::Ball { .. } => None,
+            })
+        };
+        if sees {
+            assert!(!jammers().any(|j| j.overlaps(&hull)), "{} sees {} through a jammer", a.0, b.0);
+        } else {
+            assert!(jammers().any(|j| j.widened(&grown).overlaps(&hull)), "{} doesn't see {}", a.0, b.0);
+        }
+    }
+    assert!(counts.iter().all(|n| *n > 50), "{counts:?}");
 }
 
 #[test]

@@ -49,12 +49,21 @@ enum Swatch {
     Grown(String),
 }
 
+/// What only some pictures have.
+#[derive(Clone, Copy)]
+pub struct Extras {
+    /// Links, at some of the moments shown.
+    pub links: bool,
+    /// The cells of a partition.
+    pub cells: bool,
+}
+
 /// Draws the legend, and says where it ends.
-pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, with_links: bool) -> f64 {
+pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, extras: Extras) -> f64 {
     let (left, top) = layout.legend;
     let room = layout.legend_width;
     let mut y = top;
-    let marks = [moving(scene, with_links), still(scene)].into_iter().flatten().collect();
+    let marks = [moving(scene, extras.links), still(scene, extras.cells)].into_iter().flatten().collect();
     for entries in [robots(scene), marks] {
         let mut x = left;
         for entry in &entries {
@@ -111,7 +120,7 @@ fn moving(scene: &Scene, with_links: bool) -> Vec<Entry> {
 }
 
 /// The marks of what stands still, as far as the mission has it.
-fn still(scene: &Scene) -> Vec<Entry> {
+fn still(scene: &Scene, cells: bool) -> Vec<Entry> {
     let mut entries = Vec::new();
     let mut add = |swatch, text: &str| entries.push(Entry { text: text.into(), swatch });
     let kinds = [
@@ -144,6 +153,9 @@ fn still(scene: &Scene) -> Vec<Entry> {
                 &format!("shrunk by the tube{}", whose(index)),
             );
         }
+    }
+    if cells {
+        add(Swatch::Box("cell".into()), "cell of the partition");
     }
     if !scene.bases.is_empty() {
         add(Swatch::Base, "base");

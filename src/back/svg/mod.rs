@@ -58,7 +58,8 @@ pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
     main_panel(&mut canvas, &layout, &scene, options);
     let moments = moments::choose(&scene, MOMENTS);
     let with_links = moments.iter().any(|m| !scene.links(m.step).is_empty());
-    let bottom = legend::draw(&mut canvas, &layout, &scene, with_links).max(layout.main_bottom());
+    let extras = legend::Extras { links: with_links, cells: !options.cells.is_empty() };
+    let bottom = legend::draw(&mut canvas, &layout, &scene, extras).max(layout.main_bottom());
     let bottom = panels::draw(&mut canvas, &layout, &scene, &moments, bottom + 14.0);
     let contents = file(&layout, bottom, &scene, &canvas.finish());
     Artifact { name: NAME.into(), contents }

@@ -194,4 +194,6 @@ fn cells_lie_under_everything_else() {
     let outline = format!("M{}L{}L{}Z", pixel(0.0, 0.0), pixel(6.0, 0.0), pixel(6.0, 8.0));
     let at = |part: &str| text.find(part).expect(part);
     assert!(at(&outline) < at(r#"class="region""#));
+    assert!(text.contains("cell of the partition"));
+    assert!(!draw(&problem("small"), &plan(), &Options::default()).contents.contains("cell of"));
 }
