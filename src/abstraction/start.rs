@@ -50,6 +50,8 @@ struct Start<'a> {
     model: &'a Model,
     errors: &'a ErrorSet,
     span: Span,
+    /// x̄_0, position part.
+    at: Vec<Rational>,
     /// x̄_0 ⊕ Ω, position part.
     positions: Polytope,
     /// The corners of its bounding box.
@@ -69,12 +71,12 @@ impl<'a> Start<'a> {
         let at: Vec<Rational> = model.position.iter().map(|&i| robot.start[i].clone()).collect();
         let span = spans.robots.get(id.index()).copied().unwrap_or_default();
         let positions = errors.positions().translate(&at);
-        Some(Start { robot, model, errors, span, corners: positions.bounding_box(), positions })
+        Some(Start { robot, model, errors, span, at, corners: positions.bounding_box(), positions })
     }
 
     fn inspect(&self, problem: &Problem, spans: &Spans, boxes: &[Vec<Bounds>], found: &mut Vec<Diagnostic>) {
         if !self.positions.is_inside(&problem.workspace) {
-            found.push(self.outside_workspace(spans.workspace));
+            found.push(self.outside_workspace(&problem.workspace, spans.workspace));
         }
         self.inspect_bounds(spans, found);
         let own = bounds(&self.corners);
@@ -116,19 +118,24 @@ impl<'a> Start<'a> {
         (0..self.positions.dimension()).map(width).collect::<Vec<_>>().join(", ")
     }
 
-    fn outside_workspace(&self, workspace: Span) -> Diagnostic {
+    fn outside_workspace(&self, workspace: &Polytope, span: Span) -> Diagnostic {
         let name = &self.robot.name;
-        Diagnostic::error(
-            "dosm::abstraction::start_outside_workspace",
-            format!("`{name}` may be outside the workspace at its start"),
-            self.span,
-            format!("with its tube ({}) it reaches over the edge", self.widths()),
-        )
-        .with_label(workspace, "the workspace")
-        .with_help(format!(
-            "start `{name}` further inside, or reduce the disturbance of `{}`",
-            self.model.name
-        ))
+        let (message, label, help) = if workspace.contains(&self.at) {
+            (
+                format!("`{name}` may be outside the workspace at its start"),
+                format!("with its tube ({}) it reaches over the edge", self.widths()),
+                format!("start `{name}` further inside, or reduce the disturbance of `{}`", self.model.name),
+            )
+        } else {
+            (
+                format!("`{name}` starts outside the workspace"),
+                format!("outside, even without its tube ({})", self.widths()),
+                format!("start `{name}` inside, with room for its tube"),
+            )
+        };
+        Diagnostic::error("dosm::abstraction::start_outside_workspace", message, self.span, label)
+            .with_label(span, "the workspace")
+            .with_help(help)
     }
 
     fn outside_bound(&self, spans: &Spans, state: usize, above: &Rational, below: &Rational) -> Diagnostic {
@@ -163,14 +170,22 @@ impl<'a> Start<'a> {
             BlockerKind::Jammer => ("dosm::abstraction::start_in_jammer", "jammer"),
             _ => ("dosm::abstraction::start_in_obstacle", "obstacle"),
         };
-        Diagnostic::error(
-            code,
-            format!("`{}` may be in the {what} `{}` at its start", self.robot.name, blocker.name),
-            self.span,
-            format!("with its tube ({}) it touches `{}`", self.widths(), blocker.name),
-        )
-        .with_label(span, format!("the {what}"))
-        .with_help(format!("start `{}` further away from `{}`", self.robot.name, blocker.name))
+        let (name, other) = (&self.robot.name, &blocker.name);
+        let (message, label) = if blocker.shape.pieces.iter().any(|piece| piece.contains(&self.at)) {
+            (
+                format!("`{name}` starts in the {what} `{other}`"),
+                format!("inside `{other}`, even without its tube ({})", self.widths()),
+            )
+        } else {
+            (
+                format!("`{name}` may be in the {what} `{other}` at its start"),
+                format!("with its tube ({}) it touches `{other}`", self.widths()),
+            )
+        };
+        let help = format!("start `{name}` further away from `{other}`");
+        Diagnostic::error(code, message, self.span, label)
+            .with_label(span, format!("the {what}"))
+            .with_help(help)
     }
 
     /// The greatest gap along any axis that is certain between two robots; negative when none is.

@@ -89,6 +89,23 @@ pub enum Piece {
     },
 }
 
+impl Piece {
+    /// Whether a point may lie in the piece, given that a ball's centre may be uncertain.
+    pub fn contains(&self, point: &[Rational]) -> bool {
+        match self {
+            Piece::Polytope(polytope) => polytope.contains(point),
+            Piece::Ball { center, spread, radius } => {
+                let beyond = |((p, c), s): ((&Rational, &Rational), &Rational)| {
+                    let distance = (p - c).abs() - s;
+                    if distance.is_negative() { Rational::ZERO } else { &distance * &distance }
+                };
+                let square: Rational = point.iter().zip(center).zip(spread).map(beyond).sum();
+                square <= radius * radius
+            }
+        }
+    }
+}
+
 /// A region of interest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
@@ -202,4 +219,23 @@ pub struct Goal {
     pub name: String,
     /// Its formula.
     pub formula: FormulaId,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_disc_holds_its_edge_and_not_the_corners_of_its_box() {
+        let point = |x: i64, y: i64| vec![Rational::from(x), Rational::from(y)];
+        let disc = |spread: i64| Piece::Ball {
+            center: point(0, 0),
+            spread: point(spread, spread),
+            radius: Rational::from(5),
+        };
+        assert!(disc(0).contains(&point(3, 4)));
+        assert!(!disc(0).contains(&point(4, 4)));
+        assert!(disc(1).contains(&point(4, 4)));
+        assert!(!disc(1).contains(&point(5, 5)));
+    }
 }
