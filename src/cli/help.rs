@@ -57,6 +57,7 @@ Examples:
   dosmc solve examples/paper/table1-4.dosm -o out --set bases=2
   dosmc solve examples/relay.dosm -o out --horizon 1..30 --timeout 1min
   dosmc solve examples/patrol.dosm -o out --json
+  dosmc solve examples/first.dosm -o out --encoding paper -v
 
 Exit status:
   0  a plan was found and checked (--json: `shortest` if none is shorter)
