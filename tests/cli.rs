@@ -484,6 +484,9 @@ fn verbose_lists_the_phases() {
         assert_eq!(phases(&output), [&before[..], &search, &after].concat(), "{output:?}");
         assert!(!String::from_utf8_lossy(&output.stdout).contains("phase"));
     }
+    let (_keep, out, _) = solved(REACH, &[]);
+    let output = run(&["verify", path(&out.join("plan.json")), REACH, "-v"]);
+    assert_eq!(phases(&output), ["phase", "read", "check", "exact check", "other", "total"]);
     let dir = temporary();
     let output = run(&["compile", REACH, "-o", path(dir.path()), "-v"]);
     assert_eq!(phases(&output), [before.as_slice(), &after].concat());

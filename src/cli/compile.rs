@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::files::OutputDirectory;
+use super::mission::Opening;
 use super::output::Output;
 use super::overseer::Overseer;
 use super::stats::{Ledger, peak_rss_mib};
-use super::{Status, mission, output, phases};
+use super::{Status, output, phases};
 use crate::back::{Artifact, Emit};
 use crate::diag::printable;
 use crate::driver::{self, Overrides};
@@ -49,7 +50,8 @@ pub fn compile(
     };
     let ledger = Ledger::default();
     let overseer = Overseer::start(timeout, !output.quiet, output::giving_up(output.clone()));
-    let artifacts = mission::load_or_fail(path, overrides, &overseer, &ledger, output).map(|mission| {
+    let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
+    let artifacts = opening.mission(path).map(|mission| {
         let started = Instant::now();
         overseer.enter("writing");
         let artifacts = artifacts(&mission, wanted);

@@ -9,7 +9,7 @@ use super::stats::Ledger;
 use super::{Status, files};
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::driver::{self, Mission, Overrides};
-use crate::ir::Problem;
+use crate::ir::{Problem, Spans};
 use crate::source::SourceFile;
 use crate::syntax;
 
@@ -50,71 +50,94 @@ pub fn load(source: &SourceFile, overrides: &Overrides) -> (Option<Mission>, Vec
     (loaded, sorted(&diagnostics))
 }
 
-/// Reads a mission's problem, and says what is wrong with it.
-///
-/// # Errors
-/// The command's status when there is something wrong, which was said.
-pub fn problem_or_fail(path: &Path, overrides: &Overrides, output: &Output) -> Result<Problem, Status> {
-    let source = open_or_fail(path, output)?;
-    let mut diagnostics = Diagnostics::new();
-    let problem = driver::problem(&source, overrides, &mut diagnostics);
-    told(problem, &source, &sorted(&diagnostics), output).map(|(problem, _)| problem)
+/// A command that opens a mission: what it goes by, where it notes what it took and says what is wrong.
+pub struct Opening<'a> {
+    /// What the command line says about the mission.
+    pub overrides: &'a Overrides,
+    /// Hears what is being done.
+    pub overseer: &'a Overseer,
+    /// Hears how long it took.
+    pub ledger: &'a Ledger,
+    /// Where to say what is wrong.
+    pub output: &'a Output,
 }
 
-/// Loads a mission step by step, notes what each took, and says what is wrong with it.
-///
-/// # Errors
-/// The command's status when there is something wrong, which was said.
-pub fn load_or_fail(
-    path: &Path,
-    overrides: &Overrides,
-    overseer: &Overseer,
-    ledger: &Ledger,
-    output: &Output,
-) -> Result<Mission, Status> {
-    let started = Instant::now();
-    let source = open_or_fail(path, output)?;
-    let mut diagnostics = Diagnostics::new();
-    let file = syntax::parse(&source, &mut diagnostics);
-    ledger.note(|run| run.read(&source, started.elapsed()));
-    let problem = file.and_then(|file| {
+impl Opening<'_> {
+    /// Reads a mission's problem, and says what is wrong with it.
+    ///
+    /// # Errors
+    /// The command's status when there is something wrong, which was said.
+    pub fn problem(&self, path: &Path) -> Result<Problem, Status> {
+        let source = self.open(path)?;
+        let mut diagnostics = Diagnostics::new();
+        let problem = self.meaning(&source, &mut diagnostics);
+        self.told(problem, &source, &diagnostics).map(|(problem, _)| problem)
+    }
+
+    /// Loads a mission, tubes included, and says what is wrong with it.
+    ///
+    /// # Errors
+    /// The command's status when there is something wrong, which was said.
+    pub fn mission(&self, path: &Path) -> Result<Mission, Status> {
+        let source = self.open(path)?;
+        let mut diagnostics = Diagnostics::new();
+        let mission = self.meaning(&source, &mut diagnostics).and_then(|(problem, spans)| {
+            let started = Instant::now();
+            self.overseer.name_robots(problem.robots.values().map(|r| r.name.clone()).collect());
+            self.overseer.enter("making tubes");
+            let mission = driver::prepare(problem, spans, &mut diagnostics);
+            self.ledger.note(|run| run.time_tube = started.elapsed());
+            mission
+        });
+        let mission = self.told(mission, &source, &diagnostics)?;
+        self.ledger.note(|run| run.has_tubes(&mission));
+        Ok(mission)
+    }
+
+    fn open(&self, path: &Path) -> Result<SourceFile, Status> {
         let started = Instant::now();
-        overseer.enter("checking");
-        let problem = driver::meaning(&file, &source, overrides, &mut diagnostics);
-        ledger.note(|run| run.time_check = started.elapsed());
-        problem
-    });
-    let mission = problem.and_then(|(problem, spans)| {
+        let opened = open(path).map_err(|unopened| {
+            let Unopened { source, problem, status } = *unopened;
+            self.overseer.aside(|| self.output.fail_in(&source, &[problem], status))
+        })?;
+        self.ledger.note(|run| run.read(&opened, started.elapsed()));
+        Ok(opened)
+    }
+
+    fn meaning(
+        &self,
+        source: &SourceFile,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<(Problem, Spans), Reported> {
         let started = Instant::now();
-        overseer.name_robots(problem.robots.values().map(|r| r.name.clone()).collect());
-        overseer.enter("making tubes");
-        let mission = driver::prepare(problem, spans, &mut diagnostics);
-        ledger.note(|run| run.time_tube = started.elapsed());
-        mission
-    });
-    let mission = overseer.aside(|| told(mission, &source, &sorted(&diagnostics), output))?;
-    ledger.note(|run| run.loaded(&mission));
-    Ok(mission)
-}
+        let file = syntax::parse(source, diagnostics)?;
+        self.ledger.note(|run| run.time_read += started.elapsed());
+        let started = Instant::now();
+        self.overseer.enter("checking");
+        let meaning = driver::meaning(&file, source, self.overrides, diagnostics)?;
+        self.ledger.note(|run| {
+            run.time_check = started.elapsed();
+            run.means(&meaning.0);
+        });
+        Ok(meaning)
+    }
 
-/// Reads a mission's text, and says why when that fails.
-///
-/// # Errors
-/// The command's status when it can't be read, which was said.
-pub fn open_or_fail(path: &Path, output: &Output) -> Result<SourceFile, Status> {
-    open(path).map_err(|unopened| output.fail_in(&unopened.source, &[unopened.problem], unopened.status))
-}
-
-/// Says what was found; errors end the command.
-fn told<T>(
-    loaded: Result<T, Reported>,
-    source: &SourceFile,
-    diagnostics: &[Diagnostic],
-    output: &Output,
-) -> Result<T, Status> {
-    loaded
-        .inspect(|_| output.diagnostics(source, diagnostics))
-        .map_err(|_| output.fail_in(source, diagnostics, Status::Mission))
+    /// Says what was found; errors end the command.
+    fn told<T>(
+        &self,
+        loaded: Result<T, Reported>,
+        source: &SourceFile,
+        diagnostics: &Diagnostics,
+    ) -> Result<T, Status> {
+        let (all, output) = (sorted(diagnostics), self.output);
+        self.overseer.aside(|| match loaded {
+            Ok(loaded) => {
+                output.diagnostics(source, &all);
+                Ok(loaded)
+            }
+            Err(_) => Err(output.fail_in(source, &all, Status::Mission)),
+        })
+    }
 }
 
 fn sorted(diagnostics: &Diagnostics) -> Vec<Diagnostic> {

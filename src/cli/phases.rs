@@ -8,6 +8,7 @@ use super::stats::Run;
 use crate::diag::printable;
 use crate::driver::Encoding;
 use crate::solve::Statistics;
+use crate::verify::Report;
 
 /// A phase, its time, and its counts in words.
 struct Phase {
@@ -19,11 +20,15 @@ struct Phase {
 /// The table of a run with a search.
 pub fn of_search(run: &Run, search: &Statistics, total: Duration, peak_mib: f64) -> String {
     let phases = [
+        read(run),
+        check(run),
+        tubes(run),
         phase("geometry", search.time_geometry, geometry(run, search)),
         phase("encoding", search.time_encode, encoded(search)),
         phase("SAT", search.time_sat, counted(search.sat_calls as usize, "call")),
         phase("convex", search.time_convex, convex(search)),
         phase("exact check", run.time_verify, String::new()),
+        files(run),
     ];
     let steps = if search.length > 0 { search.length + 1 } else { 0 };
     let paper = run.papers_connectivity * steps;
@@ -33,29 +38,46 @@ pub fn of_search(run: &Run, search: &Statistics, total: Duration, peak_mib: f64)
         notes.push(format!("links      {} (the paper's encoding: {paper})", counted(own, "variable")));
     }
     notes.extend(conflicts(run, search));
-    table(run, phases.into(), &notes, total, peak_mib)
+    table(phases.into(), &notes, total, peak_mib)
 }
 
-/// The table of a run without one.
+/// The table of a run that writes files without a search.
 pub fn of_files(run: &Run, total: Duration, peak_mib: f64) -> String {
-    table(run, Vec::new(), &rejection(run), total, peak_mib)
+    table(vec![read(run), check(run), tubes(run), files(run)], &rejection(run), total, peak_mib)
+}
+
+/// The table of a run that checks a plan.
+pub fn of_check(run: &Run, report: &Report, total: Duration, peak_mib: f64) -> String {
+    let claims = report.checks.iter().map(|c| c.count).sum();
+    let exact = phase("exact check", run.time_verify, counted(claims, "claim"));
+    table(vec![read(run), check(run), exact], &[], total, peak_mib)
 }
 
 fn phase(name: &'static str, time: Duration, what: String) -> Phase {
     Phase { name, time, what }
 }
 
-fn table(run: &Run, inner: Vec<Phase>, notes: &[String], total: Duration, peak_mib: f64) -> String {
-    let mut phases = vec![
-        phase("read", run.time_read, format!("{}, {}", counted(run.text.0, "line"), size(run.text.1))),
-        phase("check", run.time_check, parts(run)),
-        phase("tubes", run.time_tube, counted(run.rejection.len(), "model")),
-    ];
-    phases.extend(inner);
-    let files = run.files;
-    let written =
-        if files.0 > 0 { format!("{}, {}", counted(files.0, "file"), size(files.1)) } else { "none".into() };
-    phases.push(phase("files", run.time_write, written));
+fn read(run: &Run) -> Phase {
+    phase("read", run.time_read, format!("{}, {}", counted(run.text.0, "line"), size(run.text.1)))
+}
+
+fn check(run: &Run) -> Phase {
+    let there = run.parts.iter().filter(|(count, _)| *count > 0);
+    let parts: Vec<String> = there.map(|(count, noun)| counted(*count, noun)).collect();
+    phase("check", run.time_check, parts.join(", "))
+}
+
+fn tubes(run: &Run) -> Phase {
+    phase("tubes", run.time_tube, counted(run.rejection.len(), "model"))
+}
+
+fn files(run: &Run) -> Phase {
+    let (count, bytes) = run.files;
+    let written = format!("{}, {}", counted(count, "file"), size(bytes));
+    phase("files", run.time_write, if count > 0 { written } else { "none".into() })
+}
+
+fn table(mut phases: Vec<Phase>, notes: &[String], total: Duration, peak_mib: f64) -> String {
     let named: Duration = phases.iter().map(|p| p.time).sum();
     phases.push(phase("other", total.saturating_sub(named), String::new()));
     phases.push(phase("total", total, format!("peak memory {peak_mib:.1} MiB")));
@@ -86,11 +108,6 @@ fn size(bytes: usize) -> String {
     }
 }
 
-fn parts(run: &Run) -> String {
-    let there = run.parts.iter().filter(|(count, _)| *count > 0);
-    there.map(|(count, noun)| counted(*count, noun)).collect::<Vec<_>>().join(", ")
-}
-
 fn geometry(run: &Run, search: &Statistics) -> String {
     let half_spaces = counted(search.half_spaces, "half-space");
     match run.encoding {
@@ -119,7 +136,7 @@ fn rejection(run: &Run) -> Vec<String> {
     run.rejection.iter().enumerate().map(line).collect()
 }
 
-/// How often each robot's program has refused a candidate, the most often first.
+/// How often each robot's programs have refused what a candidate asks, the most often first.
 fn conflicts(run: &Run, search: &Statistics) -> Option<String> {
     let mut robots: Vec<(&String, u64)> = run.robots.iter().zip(search.conflicts.iter().copied()).collect();
     robots.retain(|(_, count)| *count > 0);

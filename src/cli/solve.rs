@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::files::OutputDirectory;
+use super::mission::Opening;
 use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
 use super::stats::{JsonStats, Ledger, peak_rss_mib};
-use super::{Status, mission, phases, png};
+use super::{Status, phases, png};
 use crate::back::{Artifact, svg};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
@@ -127,7 +128,8 @@ pub fn solve(
     ledger.note(|run| run.encoding = settings.encoding);
     let overseer =
         Overseer::start(settings.timeout, !output.quiet, last_words(ledger.clone(), output.clone()));
-    let mission = match mission::load_or_fail(path, overrides, &overseer, &ledger, output) {
+    let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
+    let mission = match opening.mission(path) {
         Ok(mission) => mission,
         Err(status) => {
             overseer.close();

@@ -8,6 +8,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::driver::{Encoding, Mission};
+use crate::ir::Problem;
 use crate::solve::Statistics;
 use crate::source::SourceFile;
 
@@ -49,9 +50,8 @@ impl Run {
         self.time_read = time;
     }
 
-    /// Notes a mission that was loaded.
-    pub fn loaded(&mut self, mission: &Mission) {
-        let problem = &mission.problem;
+    /// Notes what a mission means.
+    pub fn means(&mut self, problem: &Problem) {
         self.parts = vec![
             (problem.robots.len(), "robot"),
             (problem.regions.len(), "region"),
@@ -60,11 +60,15 @@ impl Run {
             (problem.formulas.nodes().len(), "subformula"),
         ];
         self.robots = problem.robots.values().map(|r| r.name.clone()).collect();
+        self.papers_connectivity = papers_connectivity(problem);
+    }
+
+    /// Notes a mission's tubes.
+    pub fn has_tubes(&mut self, mission: &Mission) {
         let rejection =
             |tube: &crate::tube::Tube| JsonRejection { beta: tube.beta, why: tube.choice.to_string() };
-        let models = problem.models.values().zip(mission.tubes.values());
+        let models = mission.problem.models.values().zip(mission.tubes.values());
         self.rejection = models.map(|(model, tube)| (model.name.clone(), rejection(tube))).collect();
-        self.papers_connectivity = papers_connectivity(mission);
     }
 
     /// Notes files that were written.
@@ -116,7 +120,8 @@ pub struct JsonStats {
     candidates: u64,
     /// Lemmas learned.
     lemmas: u64,
-    /// By robot: how many candidates its program has refused, alone or together with others'.
+    /// By robot: how often its programs refused what a candidate asks of them, alone or together with
+    /// others'; several may refuse the same candidate.
     conflicts: BTreeMap<String, u64>,
     /// By model: the share of the inputs that its feedback has.
     rejection: BTreeMap<String, JsonRejection>,
@@ -189,11 +194,11 @@ impl JsonStats {
 
 /// Variables a step that the paper's own encoding takes: with N nodes, one for each pair of them
 /// and each number of hops up to N − 1.
-fn papers_connectivity(mission: &Mission) -> usize {
-    if mission.problem.connectivity.is_none() {
+fn papers_connectivity(problem: &Problem) -> usize {
+    if problem.connectivity.is_none() {
         return 0;
     }
-    let nodes = mission.problem.robots.len() + mission.problem.bases.len();
+    let nodes = problem.robots.len() + problem.bases.len();
     nodes * nodes.saturating_sub(1) / 2 * nodes.saturating_sub(1)
 }
 

@@ -1,13 +1,15 @@
 //! `dosmc verify`: the independent checker.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use super::mission::Opening;
 use super::output::{Output, giving_up, plain_error};
 use super::overseer::Overseer;
-use super::{Status, files, mission};
+use super::stats::{Ledger, peak_rss_mib};
+use super::{Status, files, phases};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Overrides};
 use crate::ir::Problem;
@@ -67,20 +69,31 @@ pub fn examine(
     if plan == Path::new("-") && mission == Path::new("-") {
         return Err(output.fail(super::usage("the plan and the mission can't both come from standard input")));
     }
-    let problem = mission::problem_or_fail(mission, overrides, output)?;
+    let ledger = Ledger::default();
     let overseer = Overseer::start(timeout, !output.quiet, giving_up(output.clone()));
-    overseer.enter("checking the plan exactly");
-    let checked = read_plan(plan).map(|plan| {
-        plan.map(|plan| {
-            let report = driver::verify(&problem, &plan);
-            (plan, report)
-        })
+    let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
+    let checked = opening.problem(mission).map(|problem| {
+        let started = Instant::now();
+        overseer.enter("checking the plan exactly");
+        let report = read_plan(plan).map(|plan| {
+            plan.map(|plan| {
+                let report = driver::verify(&problem, &plan);
+                (plan, report)
+            })
+        });
+        ledger.note(|run| run.time_verify = started.elapsed());
+        (problem, report)
     });
     overseer.close();
+    let (problem, checked) = checked?;
     let (plan, report) = checked
         .map_err(|problem| output.fail(problem))?
         .map_err(|refused| output.fail_with(refused, Status::Refused))?;
-    Ok(Examined { problem, plan, report, time: overseer.elapsed() })
+    let run = ledger.so_far();
+    if output.verbose > 0 {
+        output.note(&phases::of_check(&run, &report, overseer.elapsed(), peak_rss_mib()));
+    }
+    Ok(Examined { problem, plan, report, time: run.time_verify })
 }
 
 /// A plan from its file: the outer error is the file's, the inner one the plan's.

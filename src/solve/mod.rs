@@ -100,7 +100,8 @@ pub struct Statistics {
     pub candidates: u64,
     /// Lemmas.
     pub lemmas: u64,
-    /// By robot: how many candidates its program has refused, alone or together with others'.
+    /// By robot: how often its programs refused what a candidate asks of them, alone or together with
+    /// others'; several may refuse the same candidate.
     pub conflicts: Vec<u64>,
     /// Moves and links of candidates that what was encoded so far let pass, though they are not clear.
     pub not_clear: u64,
