@@ -26,6 +26,8 @@ mod text;
 mod ways;
 
 #[cfg(test)]
+mod sample;
+#[cfg(test)]
 mod tests;
 
 use crate::back::Artifact;

@@ -159,3 +159,68 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a Point>) -> Vec<Point> {
     chain.pop();
     chain
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Rational;
+
+    fn numbers(values: &[f64]) -> Vec<Rational> {
+        values.iter().map(|v| Rational::from_f64(*v).expect("finite")).collect()
+    }
+
+    fn disc(spread: [f64; 2]) -> Piece {
+        Piece::Ball {
+            center: numbers(&[2.0, 1.0]),
+            spread: numbers(&spread),
+            radius: numbers(&[1.0])[0].clone(),
+        }
+    }
+
+    fn section() -> Section {
+        Section { center: vec![0.5, 0.0], generators: vec![vec![0.3, 0.0], vec![0.0, 0.4]] }
+    }
+
+    /// However the piece is shrunk, the section around each corner touches the piece's edge from inside.
+    fn farthest(corner: Point, spread: [f64; 2]) -> f64 {
+        let errors = [(0.8, 0.4), (0.8, -0.4), (0.2, 0.4), (0.2, -0.4)];
+        let reach = |(ex, ey): (f64, f64)| {
+            let (x, y) = (corner[0] + ex - 2.0, corner[1] + ey - 1.0);
+            (x.abs() + spread[0]).hypot(y.abs() + spread[1])
+        };
+        errors.map(reach).into_iter().fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_shrunk_disc_is_as_large_as_it_can_be() {
+        for spread in [[0.0, 0.0], [0.0, 0.2], [0.1, 0.0]] {
+            let left = shrunk(&disc(spread), &section()).expect("something is left");
+            assert_eq!(left.corners.len(), ARC_CORNERS);
+            for corner in &left.corners {
+                assert!((farthest(*corner, spread) - 1.0).abs() < 1e-9, "{corner:?} {spread:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_left_of_what_is_smaller_than_the_tube() {
+        let wide = Section { center: vec![0.0, 0.0], generators: vec![vec![0.8, 0.0], vec![0.0, 0.8]] };
+        assert_eq!(shrunk(&disc([0.0, 0.0]), &wide), None);
+        let square = Piece::Polytope(Polytope::from_box(&numbers(&[0.0, 0.0]), &numbers(&[1.5, 1.5])));
+        assert_eq!(shrunk(&square, &wide), None);
+    }
+
+    #[test]
+    fn a_section_of_skew_generators_has_six_corners() {
+        let section = Section {
+            center: vec![0.0, 0.0],
+            generators: vec![vec![1.0, 0.0], vec![0.0, 1.0], vec![1.0, 1.0]],
+        };
+        let outline = section.outline();
+        assert_eq!(
+            outline.corners,
+            [[-2.0, -2.0], [0.0, -2.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [-2.0, 0.0]]
+        );
+        assert_eq!(section.support(&[1.0, -1.0]), 2.0);
+    }
+}

@@ -1,152 +1,9 @@
 //! Tests of the picture on a small plan made by hand.
 
-use std::collections::BTreeMap;
-
-use super::{Options, draw};
-use crate::entity::EntityId;
-use crate::exact::{Rational, RationalMatrix};
-use crate::geometry::{HalfSpace, Polytope};
-use crate::ir::{
-    Base, Blocker, BlockerKind, Formula, Formulas, Goal, Interval, Model, ModelId, Piece, Problem, Region,
-    Robot, Shape, Signal,
-};
-use crate::plan::{Link, Mission, Plan, RobotPlan, Tube};
-
-fn number(value: f64) -> Rational {
-    Rational::from_f64(value).expect("finite")
-}
-
-fn numbers(values: &[f64]) -> Vec<Rational> {
-    values.iter().copied().map(number).collect()
-}
-
-fn boxed(x: (f64, f64), y: (f64, f64)) -> Polytope {
-    let vertices = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)];
-    let facets = [([0.0, -1.0], -y.0), ([1.0, 0.0], x.1), ([0.0, 1.0], y.1), ([-1.0, 0.0], -x.0)];
-    Polytope {
-        facets: facets.iter().map(|(n, b)| HalfSpace { normal: numbers(n), offset: number(*b) }).collect(),
-        vertices: vertices.iter().map(|v| numbers(&[v.0, v.1])).collect(),
-    }
-}
-
-fn shape(piece: Piece) -> Shape {
-    Shape { pieces: vec![piece] }
-}
-
-fn blocker(name: &str, kind: BlockerKind, piece: Piece) -> Blocker {
-    Blocker { name: name.into(), doc: String::new(), kind, shape: shape(piece) }
-}
-
-fn cart() -> Model {
-    let signal = |name: &str| Signal { name: name.into(), doc: String::new(), unit: "m".into() };
-    let interval = || Interval { lo: number(-1.0), hi: number(1.0) };
-    Model {
-        name: "Cart".into(),
-        doc: String::new(),
-        states: ["px", "py"].map(signal).into(),
-        inputs: ["vx", "vy"].map(signal).into(),
-        position: vec![0, 1],
-        a: RationalMatrix::identity(2, 2),
-        b: RationalMatrix::identity(2, 2),
-        c: numbers(&[0.0, 0.0]),
-        enclosure: None,
-        state_bounds: vec![None, None],
-        input_bounds: vec![interval(), interval()],
-        mixed_bounds: Vec::new(),
-        disturbance: vec![interval(), interval()],
-        rejection: None,
-    }
-}
-
-fn problem(name: &str) -> Problem {
-    let mut formulas = Formulas::new();
-    let formula = formulas.intern(Formula::True);
-    let disc =
-        Piece::Ball { center: numbers(&[8.0, 2.0]), spread: numbers(&[0.5, 0.0]), radius: number(1.0) };
-    let robot = |name: &str, x: f64| Robot {
-        name: name.into(),
-        doc: String::new(),
-        model: ModelId::new(0),
-        start: numbers(&[x, 1.0]),
-    };
-    let region = Region {
-        name: "<goal> & co".into(),
-        doc: String::new(),
-        shape: shape(Piece::Polytope(boxed((8.0, 11.0), (5.0, 7.5)))),
-    };
-    Problem {
-        name: name.into(),
-        doc: String::new(),
-        sha256: String::new(),
-        set: BTreeMap::new(),
-        dimension: 2,
-        step: number(0.5),
-        workspace: boxed((0.0, 12.0), (0.0, 8.0)),
-        regions: [region].into_iter().collect(),
-        blockers: [
-            blocker("J1", BlockerKind::Jammer, Piece::Polytope(boxed((4.0, 6.0), (3.0, 5.0)))),
-            blocker("disc", BlockerKind::Obstacle, disc),
-            blocker("wall", BlockerKind::OpaqueObstacle, Piece::Polytope(boxed((2.0, 2.4), (4.0, 8.0)))),
-        ]
-        .into_iter()
-        .collect(),
-        bases: [Base { name: "B1".into(), doc: String::new(), position: numbers(&[1.0, 7.0]) }]
-            .into_iter()
-            .collect(),
-        models: [cart()].into_iter().collect(),
-        robots: [robot("R1", 1.0), robot("R2", 3.0)].into_iter().collect(),
-        separation: None,
-        connectivity: None,
-        horizon: (1, 8),
-        objective: None,
-        formulas,
-        goals: vec![Goal { name: "g".into(), formula }],
-    }
-}
-
-fn link(from: &str, to: &str) -> Link {
-    Link { from: from.into(), to: to.into(), hops: 1, separators: Vec::new() }
-}
-
-fn plan() -> Plan {
-    let robot = |name: &str, z: &[[f64; 2]]| RobotPlan {
-        name: name.into(),
-        dynamics: "Cart".into(),
-        z: z.iter().map(|p| p.to_vec()).collect(),
-        v: vec![vec![0.0; 2]; z.len()],
-        regions: BTreeMap::new(),
-        outside: BTreeMap::new(),
-        clear: BTreeMap::new(),
-    };
-    Plan {
-        tool: "dosmc 0.1.0".into(),
-        mission: Mission { name: "m".into(), sha256: String::new(), set: BTreeMap::new() },
-        step_s: 0.5,
-        length: 4,
-        loop_start: 2,
-        tubes: vec![Tube {
-            dynamics: "Cart".into(),
-            center: vec![0.1, 0.0],
-            half_width: vec![0.2, 0.3],
-            reserve: vec![0.0; 2],
-            d: vec![vec![vec![1.0, 0.0], vec![0.0, 1.0]]],
-            m: vec![vec![vec![-1.0, 0.0], vec![0.0, -1.0]]],
-        }],
-        robots: vec![
-            robot("R1", &[[1.0, 1.0], [3.0, 2.0], [7.0, 4.0], [9.0, 6.0], [10.0, 5.5]]),
-            robot("R2", &[[3.0, 1.0], [3.0, 2.5], [3.2, 6.0], [5.0, 7.0], [4.0, 6.5]]),
-        ],
-        links: Some(vec![
-            Vec::new(),
-            Vec::new(),
-            Vec::new(),
-            Vec::new(),
-            vec![link("R1", "R2"), link("R2", "B1")],
-        ]),
-        separation: Vec::new(),
-        objective: None,
-    }
-}
+use super::sample::{link, plan, problem};
+use super::scene::Scene;
+use super::{Options, draw, moments};
+use crate::plan::Label;
 
 #[test]
 fn the_picture_of_a_small_plan() {
@@ -196,4 +53,94 @@ fn cells_lie_under_everything_else() {
     assert!(at(&outline) < at(r#"class="region""#));
     assert!(text.contains("cell of the partition"));
     assert!(!draw(&problem("small"), &plan(), &Options::default()).contents.contains("cell of"));
+}
+
+/// What one of the picture's classes is drawn with: the paths, in order.
+fn paths(text: &str, class: &str) -> Vec<String> {
+    let start = format!(r#"<path class="{class}" d=""#);
+    let path = |rest: &str| rest.split('"').next().unwrap_or_default().to_string();
+    text.split(&start).skip(1).map(path).collect()
+}
+
+/// A box's path in the main panel.
+fn boxed(x: (f64, f64), y: (f64, f64)) -> String {
+    let corners = [pixel(x.0, y.0), pixel(x.1, y.0), pixel(x.1, y.1), pixel(x.0, y.1)];
+    format!("M{}Z", corners.join("L"))
+}
+
+fn drawn() -> String {
+    draw(&problem("small"), &plan(), &Options::default()).contents
+}
+
+// The tube is 0.1 ± 0.2 by 0 ± 0.3, so blockers grow by 0.3 to the left, 0.1 to the right, and 0.3 up and
+// down; regions shrink by 0.1 on the left, 0.3 on the right.
+
+#[test]
+fn jammers_grow_by_the_mirrored_tube() {
+    let expected = boxed((3.7, 6.1), (2.7, 5.3));
+    assert!(paths(&drawn(), "grown jam t0").contains(&expected), "{expected}");
+}
+
+#[test]
+fn regions_shrink_by_the_tube() {
+    let expected = boxed((8.1, 10.7), (5.3, 7.2));
+    assert!(paths(&drawn(), "shrunk t0").contains(&expected), "{expected}");
+}
+
+#[test]
+fn grown_discs_are_round_at_their_corners() {
+    // box(8 ± 0.5, 2) ⊕ disc(1), grown: corners 7.2 … 8.6 by 1.7 … 2.3, radius 1 m.
+    let path = paths(&drawn(), "grown t0").into_iter().find(|p| p.contains('A')).expect("a round one");
+    assert!(path.starts_with(&format!("M{}L{}A50.50 50.50", pixel(7.2, 0.7), pixel(8.6, 0.7))), "{path}");
+}
+
+#[test]
+fn ways_go_through_the_nominal_positions_and_close() {
+    let text = drawn();
+    let prefix = format!("M{}L{}L{}", pixel(1.0, 1.0), pixel(3.0, 2.0), pixel(7.0, 4.0));
+    let round = format!("M{}L{}L{}L{}", pixel(7.0, 4.0), pixel(9.0, 6.0), pixel(10.0, 5.5), pixel(7.0, 4.0));
+    assert!(paths(&text, "prefix").contains(&prefix) && paths(&text, "loop").contains(&round));
+}
+
+#[test]
+fn the_scale_bar_is_as_long_as_it_says() {
+    let text = drawn();
+    // 2 m at 50.5 pixels a metre.
+    assert!(paths(&text, "bar")[0].contains("h101.00"), "{:?}", paths(&text, "bar"));
+    assert!(text.contains(">2 m</text>"));
+}
+
+#[test]
+fn links_are_in_the_panels_of_their_steps() {
+    let text = drawn();
+    assert_eq!(paths(&text, "link").len(), 2 + 1, "two at the last step, one in the legend");
+    let mut without = plan();
+    without.links = None;
+    let text = draw(&problem("small"), &without, &Options::default()).contents;
+    assert_eq!(paths(&text, "link").len(), 0, "and no legend for what is not there");
+}
+
+#[test]
+fn panels_show_the_start_the_loop_and_arrivals() {
+    let (problem, mut plan) = (problem("small"), plan());
+    let of = |plan: &_| {
+        let all = moments::choose(&Scene::new(&problem, plan), 4);
+        all.into_iter().map(|m| (m.step, m.what.join(", "))).collect::<Vec<_>>()
+    };
+    let expected = [(0, "start"), (2, "the loop begins"), (4, "then step 2 again")];
+    assert_eq!(of(&plan), expected.map(|(s, w)| (s, w.to_string())));
+    plan.robots[1]
+        .regions
+        .insert("goal".into(), [Label::Out, Label::Out, Label::Out, Label::In, Label::In].into());
+    assert_eq!(of(&plan)[2], (3, "R2 in goal".to_string()));
+    plan.loop_start = 4;
+    assert_eq!(of(&plan)[2], (4, "stays so for ever".to_string()));
+}
+
+#[test]
+fn a_mission_in_space_says_that_it_is_seen_from_above() {
+    let mut space = problem("space");
+    space.dimension = 3;
+    let text = draw(&space, &plan(), &Options::default()).contents;
+    assert!(text.contains("; seen from above</text>") && text.contains("z is not shown"));
 }
