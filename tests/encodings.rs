@@ -3,6 +3,8 @@
 //! Every plan that comes out was accepted by the exact check (`driver` gives out no other), so what
 //! is compared is what each of them finds and refutes.
 
+#![allow(clippy::disallowed_methods, reason = "reads the corpus")]
+
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
