@@ -313,6 +313,19 @@ fn cells(abstraction: &Abstraction) -> usize {
     abstraction.partition.as_ref().map_or(0, Partition::count)
 }
 
+/// The outlines of the cells that a search with the paper's encoding begins with, to be drawn.
+///
+/// # Errors
+/// [`TooFine`] when there would be too many.
+pub fn cells_of(problem: &Problem) -> Result<Vec<Vec<[f64; 2]>>, TooFine> {
+    // Who has a plan that checks has tubes; without them there is nothing to draw.
+    let Ok(tubes) = tube::synthesize(problem, &Spans::default(), &mut Diagnostics::new()) else {
+        return Ok(Vec::new());
+    };
+    let abstraction = Abstraction::new(problem, &tubes, BACKOFFS[0]).with_cells(problem, Fineness::Coarse)?;
+    Ok(outlines(problem, &abstraction))
+}
+
 fn outlines(problem: &Problem, abstraction: &Abstraction) -> Vec<Vec<[f64; 2]>> {
     let first = problem.robots.values().next().map(|robot| robot.model);
     let partition = abstraction.partition.as_ref();

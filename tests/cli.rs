@@ -250,6 +250,27 @@ fn compile_writes_what_is_asked_for() {
 }
 
 #[test]
+fn the_papers_encoding_is_counted_and_drawn() {
+    let (_dir, out, output) = solved("examples/first.dosm", &["--encoding", "paper", "--json"]);
+    assert_eq!(status(&output), 0);
+    let answer = json(&output);
+    assert_eq!(answer["stats"]["encoding"], "paper");
+    assert!(answer["stats"]["cells"].as_u64() > Some(1));
+    assert_eq!(
+        answer["stats"]["bool_vars_connectivity"], answer["stats"]["bool_vars_connectivity_paper"],
+        "exactly the paper's variables"
+    );
+    let picture = fs::read_to_string(out.join("plan.svg")).unwrap();
+    assert!(picture.contains("class=\"cell\""));
+    let (plan, file) = (out.join("plan.json"), out.join("again.svg"));
+    for (more, same) in [(&["--encoding", "paper"][..], true), (&[], false)] {
+        let args = [&["render", path(&plan), "examples/first.dosm", "-o", path(&file)], more].concat();
+        assert_eq!(status(&run(&args)), 0);
+        assert_eq!(fs::read_to_string(&file).unwrap() == picture, same);
+    }
+}
+
+#[test]
 fn check_lists_diagnostics_with_their_places() {
     let output = run(&["check", "--json", REACH, WRONG]);
     let value = json(&output);

@@ -150,6 +150,9 @@ pub enum Command {
         /// Where to draw it; the name's end says how
         #[arg(short, long, value_name = "FILE.svg|FILE.png")]
         output: PathBuf,
+        /// With `paper`, draw the cells too: the coarse ones that `solve --encoding paper` begins with
+        #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH")]
+        encoding: Encoding,
     },
     /// Write a starter mission, NAME.dosm
     #[command(display_order = 1, after_long_help = help::NEW)]

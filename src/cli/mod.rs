@@ -88,8 +88,9 @@ fn run(args: Args) -> Status {
         Command::Verify { plan, mission } => {
             verify::verify(&plan, &mission, &overrides, args.common.timeout, &output)
         }
-        Command::Render { plan, mission, output: file } => {
-            render::render(&plan, &mission, &file, &overrides, args.common.timeout, &output)
+        Command::Render { plan, mission, output: file, encoding } => {
+            let wanted = render::Wanted { file: &file, encoding: encoding.into() };
+            render::render(&plan, &mission, &wanted, &overrides, args.common.timeout, &output)
         }
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),

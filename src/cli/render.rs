@@ -11,7 +11,7 @@ use super::verify::{self, Examined};
 use super::{Status, png};
 use crate::back::svg;
 use crate::diag::{Diagnostic, printable};
-use crate::driver::Overrides;
+use crate::driver::{self, Encoding, Overrides};
 
 /// What `render --json` prints; for a plan that is refused it prints what `verify --json` does.
 #[derive(Serialize)]
@@ -45,23 +45,31 @@ enum Format {
     Png,
 }
 
+/// What is to be drawn.
+pub struct Wanted<'a> {
+    /// The picture's file.
+    pub file: &'a Path,
+    /// With the paper's encoding: the cells too.
+    pub encoding: Encoding,
+}
+
 /// Draws a plan of a mission, if it checks.
 pub fn render(
     plan: &Path,
     mission: &Path,
-    file: &Path,
+    wanted: &Wanted<'_>,
     overrides: &Overrides,
     timeout: Option<Duration>,
     output: &Output,
 ) -> Status {
-    let prepared = format(file).and_then(|format| Ok((format, OutputFile::probe(file)?)));
+    let prepared = format(wanted.file).and_then(|format| Ok((format, OutputFile::probe(wanted.file)?)));
     let (format, file) = match prepared {
         Ok(prepared) => prepared,
         Err(problem) => return output.fail(problem),
     };
     match verify::examine(plan, mission, overrides, timeout, output) {
         Ok(examined) if examined.report.holds() => {
-            draw(&examined, format, &file, output).unwrap_or_else(|status| status)
+            draw(&examined, format, wanted.encoding, &file, output).unwrap_or_else(|status| status)
         }
         Ok(refused) => verify::tell(&refused, output),
         Err(status) => status,
@@ -91,10 +99,20 @@ fn format(file: &Path) -> Result<Format, Diagnostic> {
 }
 
 /// Draws the plan and says where.
-fn draw(examined: &Examined, format: Format, file: &OutputFile, output: &Output) -> Result<Status, Status> {
+fn draw(
+    examined: &Examined,
+    format: Format,
+    encoding: Encoding,
+    file: &OutputFile,
+    output: &Output,
+) -> Result<Status, Status> {
     let Examined { problem, plan, report, .. } = examined;
     let fail = |problem| output.fail(problem);
-    let text = svg::draw(problem, plan, &svg::Options::default()).contents;
+    let cells = match encoding {
+        Encoding::HalfSpaces => Vec::new(),
+        Encoding::Paper => driver::cells_of(problem).map_err(|e| fail(super::usage(e.to_string())))?,
+    };
+    let text = svg::draw(problem, plan, &svg::Options { cells: &cells }).contents;
     let bytes = match format {
         Format::Svg => text.into_bytes(),
         Format::Png => png::from_svg(&text).map_err(fail)?,

@@ -110,7 +110,7 @@ fn cells_cover_the_free_space_and_do_not_overlap() {
         let gap = cut.abstraction.gap;
         for model in cut.problem.models.ids() {
             let (mut free, mut blocked) = (0, 0);
-            for _ in 0..2000 {
+            for _ in 0..1000 {
                 let z = cut.random_point(&mut numbers);
                 if cut.free(model, &z, -gap) {
                     free += 1;
@@ -121,7 +121,7 @@ fn cells_cover_the_free_space_and_do_not_overlap() {
                 }
                 assert!(cut.holding(model, &z, -gap).len() <= 1, "overlap at {z:?}");
             }
-            assert!(free > 400 && blocked > 40, "{free} free, {blocked} blocked");
+            assert!(free > 200 && blocked > 20, "{free} free, {blocked} blocked");
         }
     }
 }
@@ -202,7 +202,7 @@ fn relations_are_right_at_every_pair_of_points() {
         };
         let mut choice = Numbers(4);
         let (mut moves, mut sights) = (0, 0);
-        for _ in 0..20_000 {
+        for _ in 0..5000 {
             let (a, b) = (places[choice.below(places.len())], places[choice.below(places.len())]);
             if let (Place::Base(_), Place::Base(_)) = (a, b) {
                 continue;
@@ -219,7 +219,7 @@ fn relations_are_right_at_every_pair_of_points() {
             }
             assert_eq!(cut.partition.sees(a, b), cut.partition.sees(b, a));
         }
-        assert!(moves > 1000 && sights > 1000, "{moves} moves, {sights} sights");
+        assert!(moves > 250 && sights > 250, "{moves} moves, {sights} sights");
     }
 }
 
