@@ -36,8 +36,22 @@ fn everything() -> Problem {
     let connectivity = problem.connectivity.as_mut().unwrap();
     connectivity.range = Some(Range { length: Rational::ratio(21, 2), norm: Norm::Euclidean });
     problem.objective = Some(Objective::Effort);
+    add_docs(&mut problem);
     add_formulas(&mut problem);
     problem
+}
+
+/// A documentation of its own for each entity.
+fn add_docs(problem: &mut Problem) {
+    let said = |id: &dyn std::fmt::Display| format!("What {id} is.");
+    problem.regions.ids().for_each(|id| problem.regions[id].doc = said(&id));
+    problem.bases.ids().for_each(|id| problem.bases[id].doc = said(&id));
+    problem.robots.ids().for_each(|id| problem.robots[id].doc = said(&id));
+    let model = &mut problem.models[ModelId::new(0)];
+    model.doc = said(&"model");
+    for signal in model.states.iter_mut().chain(&mut model.inputs) {
+        (signal.doc, signal.unit) = (said(&signal.name), format!("m/{}", signal.name));
+    }
 }
 
 fn add_formulas(problem: &mut Problem) {
