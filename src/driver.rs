@@ -2,6 +2,8 @@
 //!
 //! Nothing here reads a file, looks at the clock or prints.
 
+mod files;
+
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -10,7 +12,6 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::abstraction::{self, Abstraction, Fineness, Partition};
-use crate::back::{self, Artifact, Emit};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::ir::{self, Problem, Spans, Violation};
@@ -23,6 +24,8 @@ use crate::tube::{self, Tubes};
 use crate::verify::{self, Report};
 
 pub use crate::abstraction::TooFine;
+pub use crate::encode::TooLarge;
+pub use files::{NotWritten, Reopened, compile, is_instance_of, reopen};
 
 /// What the command line says about a mission besides its text.
 #[derive(Clone, Debug, Default)]
@@ -116,15 +119,6 @@ pub fn prepare(problem: Problem, spans: Spans, diagnostics: &mut Diagnostics) ->
     let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
     abstraction::inspect(&problem, &spans, &tubes, diagnostics)?;
     Ok(Mission { problem, spans, tubes })
-}
-
-/// Writes a mission in one of the back ends' formats, for plans of one length or, without it, for what
-/// the format is for: all lengths of the horizon, or the first.
-pub fn compile(mission: &Mission, emit: Emit, length: Option<usize>) -> Vec<Artifact> {
-    match (emit, length) {
-        // The IR says the whole mission, whatever is to be planned of it.
-        (Emit::Ir, _) => vec![back::ir::write(&mission.problem)],
-    }
 }
 
 /// How a search for a plan that checks ended.

@@ -17,18 +17,21 @@ use dosmc::source::SourceFile;
 use serde_json::Value;
 
 /// Codes that no mission of a page can show, and why.
-const WITHOUT_MISSION: [(&str, &str); 17] = [
+const WITHOUT_MISSION: [(&str, &str); 20] = [
     ("dosm::check::misplaced_table", "behind the parser, which refuses it first"),
     ("dosm::check::set_value", "comes from the command line"),
     ("dosm::check::unknown_param", "comes from the command line"),
     ("dosm::check::unknown_unit", "behind the parser, which refuses it first"),
     ("dosm::cli::bad_name", "comes from the command line"),
+    ("dosm::cli::too_large", "takes too long to show"),
     ("dosm::cli::unknown_code", "comes from the command line"),
     ("dosm::cli::unreadable", "is about files"),
     ("dosm::cli::unwritable", "is about files"),
     ("dosm::cli::usage", "comes from the command line"),
     ("dosm::ir::invalid", "a bug by definition"),
     ("dosm::plan::malformed", "is about plans"),
+    ("dosm::smc::altered", "is about instances"),
+    ("dosm::smc::malformed", "is about instances"),
     ("dosm::syntax::not_utf8", "a page is text"),
     ("dosm::syntax::number_too_long", "takes 4,001 digits"),
     ("dosm::syntax::text_too_long", "takes 64 MiB"),

@@ -303,13 +303,16 @@ fn the_scanner_sees_what_it_is_for() {
 }
 
 /// Codes that no file of the corpus can give, with what tests them instead.
-const WITHOUT_MISSION: [(&str, &str); 13] = [
+const WITHOUT_MISSION: [(&str, &str); 16] = [
     ("dosm::cli::bad_name", "tests/cli.rs"),
+    ("dosm::cli::too_large", "tests/instances.rs"),
     ("dosm::cli::unknown_code", "tests/explain.rs"),
     ("dosm::cli::unreadable", "tests/cli.rs"),
     ("dosm::cli::unwritable", "tests/cli.rs"),
     ("dosm::cli::usage", "tests/cli.rs"),
     ("dosm::plan::malformed", "tests/cli.rs"),
+    ("dosm::smc::altered", "tests/instances.rs"),
+    ("dosm::smc::malformed", "tests/instances.rs"),
     ("dosm::check::set_value", "src/check"),
     ("dosm::check::unknown_param", "tests/cli.rs"),
     ("dosm::syntax::text_too_long", "tests/syntax"),

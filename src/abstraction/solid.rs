@@ -164,7 +164,7 @@ fn add_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directio
                 let normal = [turn * along[0] - sense * along[1], turn * along[1] + sense * along[0]];
                 let direction = normal.map(|x| x / distance);
                 if solid.level(&direction) >= dot(&direction, &vertex) - 1e-3 * gap {
-                    solid.add_face(Stage::Tangents, directions.intern(&direction));
+                    solid.add_face(Stage::Tangents, directions.intern_near(&direction));
                 }
             }
         }
@@ -193,7 +193,7 @@ fn add_ball_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Dir
             direction(inside)
         });
         for tangent in tangents {
-            solid.add_face(Stage::Tangents, directions.intern(&tangent));
+            solid.add_face(Stage::Tangents, directions.intern_near(&tangent));
         }
     }
 }
@@ -206,7 +206,7 @@ fn add_oblique(solid: &mut Solid, dimension: usize, directions: &mut Directions)
                 let mut vector = vec![0.0; dimension];
                 vector[i] = a;
                 vector[j] = b;
-                solid.add_face(Stage::Oblique, directions.intern(&vector));
+                solid.add_face(Stage::Oblique, directions.intern_near(&vector));
             }
         }
     }

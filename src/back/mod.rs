@@ -1,23 +1,38 @@
 //! Back ends: one file a format, problem and plan in, [`Artifact`]s out.
 
+pub mod cnf;
 pub mod ir;
+mod names;
+pub mod smc;
+pub mod smt2;
 pub mod svg;
+
+use names::{Names, dyadic};
 
 /// What a mission can be compiled to, without a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Emit {
     /// `NAME.ir.json`
     Ir,
+    /// `NAME.smc.json`
+    Smc,
+    /// `NAME.cnf`
+    Cnf,
+    /// `NAME.smt2`
+    Smt2,
 }
 
 impl Emit {
     /// All there are, in the order in which they are written.
-    pub const ALL: &[Emit] = &[Emit::Ir];
+    pub const ALL: &[Emit] = &[Emit::Ir, Emit::Smc, Emit::Cnf, Emit::Smt2];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Emit::Ir => "ir",
+            Emit::Smc => "smc",
+            Emit::Cnf => "cnf",
+            Emit::Smt2 => "smt2",
         }
     }
 }

@@ -116,18 +116,22 @@ pub enum Command {
         /// For plans of this length only, whatever the horizon says
         #[arg(long, value_name = "L", value_parser = parse_length)]
         length: Option<usize>,
+        /// What instances speak of: half-spaces, or the cells of a partition as in the paper
+        #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH")]
+        encoding: Encoding,
     },
     /// Look for the shortest plan, check it exactly, and write it down
     #[command(display_order = 3, after_long_help = help::SOLVE)]
     Solve {
-        /// The mission; `-` is standard input
+        /// The mission, or an instance (`NAME.smc.json`); `-` is standard input
         mission: PathBuf,
         /// Where to write the plan; created where needed
         #[arg(short, long, value_name = "DIR")]
         output: PathBuf,
-        /// What the search speaks of: half-spaces, or the cells of a partition as in the paper
-        #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH", help_heading = "Search")]
-        encoding: Encoding,
+        /// What the search speaks of: half-spaces (the default; an instance has its own), or the cells of a
+        /// partition as in the paper
+        #[arg(long, value_enum, value_name = "WHICH", help_heading = "Search")]
+        encoding: Option<Encoding>,
         /// Write the picture as plan.png too (a dosmc built with `--features png`)
         #[arg(long, help_heading = "Output")]
         png: bool,

@@ -8,13 +8,14 @@ use serde::Serialize;
 
 use super::files::OutputDirectory;
 use super::mission::Opening;
-use super::output::Output;
+use super::output::{Output, plain_error};
 use super::overseer::Overseer;
 use super::stats::{Ledger, peak_rss_mib};
 use super::{Status, output, phases};
 use crate::back::{Artifact, Emit};
-use crate::diag::printable;
-use crate::driver::{self, Overrides};
+use crate::diag::{Diagnostic, printable};
+use crate::driver::{self, Encoding, NotWritten, Overrides, TooLarge};
+use crate::source::SourceFile;
 
 /// What `compile --json` prints.
 #[derive(Serialize)]
@@ -33,6 +34,8 @@ pub struct Wanted {
     pub emit: Vec<Emit>,
     /// The length of the plans, for formats that speak of one or several.
     pub length: Option<usize>,
+    /// What instances speak of.
+    pub encoding: Encoding,
 }
 
 /// Writes a mission in the formats wanted.
@@ -51,13 +54,15 @@ pub fn compile(
     let ledger = Ledger::default();
     let overseer = Overseer::start(timeout, !output.quiet, output::giving_up(output.clone()));
     let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
-    let artifacts = opening.mission(path).map(|mission| {
+    let opened = opening.open(path).and_then(|source| Ok((opening.load(&source)?, source)));
+    let artifacts = opened.and_then(|(mission, source)| {
         let started = Instant::now();
         overseer.enter("writing");
-        let artifacts = artifacts(&mission, wanted);
+        let artifacts = artifacts(&mission, &source, wanted);
+        let artifacts = artifacts.map_err(|why| overseer.aside(|| output.fail(not_written(why))))?;
         let size = artifacts.iter().map(|a| a.contents.len()).sum();
         ledger.note(|run| run.wrote(artifacts.len(), size, started.elapsed()));
-        artifacts
+        Ok(artifacts)
     });
     overseer.close();
     let done = artifacts.and_then(|artifacts| match overseer.cause() {
@@ -68,10 +73,26 @@ pub fn compile(
 }
 
 /// The files wanted, in the order of the formats, each once.
-fn artifacts(mission: &driver::Mission, wanted: &Wanted) -> Vec<Artifact> {
+fn artifacts(
+    mission: &driver::Mission,
+    source: &SourceFile,
+    wanted: &Wanted,
+) -> Result<Vec<Artifact>, NotWritten> {
     let named: BTreeSet<Emit> = wanted.emit.iter().copied().collect();
     let emit = Emit::ALL.iter().filter(|e| named.is_empty() || named.contains(e));
-    emit.flat_map(|e| driver::compile(mission, *e, wanted.length)).collect()
+    emit.map(|e| driver::compile(mission, source, wanted.encoding, *e, wanted.length)).collect()
+}
+
+fn not_written(why: NotWritten) -> Diagnostic {
+    match why {
+        NotWritten::TooFine(why) => super::usage(why.to_string()),
+        NotWritten::TooLarge(TooLarge { clauses }) => {
+            let millions = clauses.div_ceil(1_000_000);
+            let message = format!("the instance would have some {millions} million clauses");
+            plain_error("dosm::cli::too_large", message)
+                .with_help("write one length with `--length L`, or fewer with `--horizon A..B`")
+        }
+    }
 }
 
 fn write(

@@ -51,6 +51,7 @@ pub fn load(source: &SourceFile, overrides: &Overrides) -> (Option<Mission>, Vec
 }
 
 /// A command that opens a mission: what it goes by, where it notes what it took and says what is wrong.
+#[derive(Clone, Copy)]
 pub struct Opening<'a> {
     /// What the command line says about the mission.
     pub overrides: &'a Overrides,
@@ -78,10 +79,9 @@ impl Opening<'_> {
     ///
     /// # Errors
     /// The command's status when there is something wrong, which was said.
-    pub fn mission(&self, path: &Path) -> Result<Mission, Status> {
-        let source = self.open(path)?;
+    pub fn load(&self, source: &SourceFile) -> Result<Mission, Status> {
         let mut diagnostics = Diagnostics::new();
-        let mission = self.meaning(&source, &mut diagnostics).and_then(|(problem, spans)| {
+        let mission = self.meaning(source, &mut diagnostics).and_then(|(problem, spans)| {
             let started = Instant::now();
             self.overseer.name_robots(problem.robots.values().map(|r| r.name.clone()).collect());
             self.overseer.enter("making tubes");
@@ -89,12 +89,16 @@ impl Opening<'_> {
             self.ledger.note(|run| run.time_tube = started.elapsed());
             mission
         });
-        let mission = self.told(mission, &source, &diagnostics)?;
+        let mission = self.told(mission, source, &diagnostics)?;
         self.ledger.note(|run| run.has_tubes(&mission));
         Ok(mission)
     }
 
-    fn open(&self, path: &Path) -> Result<SourceFile, Status> {
+    /// Reads a mission's text, and says why when that fails.
+    ///
+    /// # Errors
+    /// The command's status when it can't be read, which was said.
+    pub fn open(&self, path: &Path) -> Result<SourceFile, Status> {
         let started = Instant::now();
         let opened = open(path).map_err(|unopened| {
             let Unopened { source, problem, status } = *unopened;
@@ -102,6 +106,11 @@ impl Opening<'_> {
         })?;
         self.ledger.note(|run| run.read(&opened, started.elapsed()));
         Ok(opened)
+    }
+
+    /// Ends the command with an error that has no place in a mission.
+    pub fn fail(&self, why: Diagnostic) -> Status {
+        self.overseer.aside(|| self.output.fail(why))
     }
 
     fn meaning(

@@ -12,6 +12,7 @@ mod completions;
 mod explain;
 mod files;
 mod help;
+mod instance;
 mod line;
 mod mission;
 mod new;
@@ -77,12 +78,13 @@ fn run(args: Args) -> Status {
     }
     let status = match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, args.common.timeout, &output),
-        Command::Compile { mission, output: directory, emit, length } => {
-            let wanted = compile::Wanted { emit, length };
+        Command::Compile { mission, output: directory, emit, length, encoding } => {
+            let wanted = compile::Wanted { emit, length, encoding: encoding.into() };
             compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
         }
         Command::Solve { mission, output: directory, encoding, png } => {
-            let search = solve::Settings { timeout: args.common.timeout, encoding: encoding.into(), png };
+            let search =
+                solve::Settings { timeout: args.common.timeout, encoding: encoding.map(Into::into), png };
             solve::solve(&mission, &directory, &overrides, search, &output)
         }
         Command::Verify { plan, mission } => {

@@ -20,6 +20,7 @@ use crate::{back, json, plan};
 fn all() -> Vec<(&'static str, Schema)> {
     vec![
         ("ir", of::<back::ir::Document>()),
+        ("smc", of::<back::smc::Document>()),
         ("plan", of::<plan::json::schema::Document>()),
         ("check", of::<Stoppable<check::JsonCheck>>()),
         ("compile", of::<Stoppable<compile::JsonCompile>>()),

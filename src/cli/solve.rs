@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::files::OutputDirectory;
+use super::instance::Asked;
 use super::mission::Opening;
 use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
@@ -78,7 +79,7 @@ pub struct Settings {
     /// When to stop.
     pub timeout: Option<Duration>,
     /// What the search speaks of.
-    pub encoding: Encoding,
+    pub encoding: Option<Encoding>,
     /// Whether to write the picture as PNG too.
     pub png: bool,
 }
@@ -125,19 +126,23 @@ pub fn solve(
         Err(problem) => return output.fail(problem),
     };
     let ledger = Ledger::default();
-    ledger.note(|run| run.encoding = settings.encoding);
     let overseer =
         Overseer::start(settings.timeout, !output.quiet, last_words(ledger.clone(), output.clone()));
     let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
-    let mission = match opening.mission(path) {
-        Ok(mission) => mission,
+    let opened = opening.open(path).and_then(|text| {
+        let asked = Asked::new(text, settings.encoding, &opening)?;
+        ledger.note(|run| run.encoding = asked.encoding);
+        Ok((asked.load(&opening)?, asked))
+    });
+    let (mission, asked) = match opened {
+        Ok(opened) => opened,
         Err(status) => {
             overseer.close();
             return status;
         }
     };
     let watch: Arc<dyn Watch> = Arc::<Overseer>::clone(&overseer);
-    let solved = driver::solve_with(&mission, settings.encoding, &watch);
+    let solved = driver::solve_with(&mission, asked.encoding, &watch);
     overseer.close();
     let Solved { answer: found, statistics, time_verify, cells, outlines, .. } = match solved {
         Ok(solved) => solved,

@@ -8,10 +8,14 @@ use rustsat::types::Lit;
 
 use crate::abstraction::{Abstraction, Bounds};
 use crate::entity::{EntityId, Table};
+use crate::exact::{Rational, primitive};
 use crate::ir::{ModelId, Problem, RobotId};
 use crate::tube::Tubes;
 
 use super::{Face, Leaf};
+
+/// Whole numbers of fewer bits are doubles.
+const MANTISSA: usize = 53;
 
 /// One number of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,7 +151,7 @@ impl<'a> Builder<'a> {
 
     fn add_start(&mut self, robot: RobotId) {
         let entry = &self.problem.robots[robot];
-        let row = |(s, x): (usize, &crate::exact::Rational)| Row {
+        let row = |(s, x): (usize, &Rational)| Row {
             terms: vec![(self.state(robot, 0, s), 1.0)],
             relation: Relation::Equal,
             bound: x.to_f64(),
@@ -160,19 +164,36 @@ impl<'a> Builder<'a> {
     fn add_step(&mut self, robot: RobotId, step: usize) {
         let entry = &self.problem.robots[robot];
         let (model, name) = (&self.problem.models[entry.model], &entry.name);
-        let mean = model.mean();
-        let dynamics = (0..model.n()).map(|s| {
-            let mut terms = vec![(self.state(robot, step + 1, s), 1.0)];
-            terms.extend((0..model.n()).map(|j| (self.state(robot, step, j), -model.a[(s, j)].to_f64())));
-            terms.extend((0..model.m()).map(|j| (self.input(robot, step, j), -model.b[(s, j)].to_f64())));
-            row(terms, Relation::Equal, (&model.c[s] + &mean[s]).to_f64())
-        });
+        let dynamics = (0..model.n()).map(|s| self.dynamics_row(robot, step, s));
         let dynamics = dynamics.collect();
         self.push(format!("dynamics of {name} from {step} to {}", step + 1), None, dynamics);
         let rows = self.input_rows(robot, step);
         self.push(format!("input bounds of {name} at {step}"), None, rows);
         let rows = self.state_rows(robot, step + 1);
         self.push(format!("state bounds of {name} at {}", step + 1), None, rows);
+    }
+
+    /// z⁺ − A z − B v = drift in one state.
+    ///
+    /// The row is multiplied by the common denominator of the model's exact numbers, so that doubles
+    /// say them exactly: 48, 24, 6, 1 instead of 1, 0.5, 0.125 and something next to 1/48. That is
+    /// also what keeps an exact solver's numbers short.
+    fn dynamics_row(&self, robot: RobotId, step: usize, s: usize) -> Row {
+        let model = &self.problem.models[self.problem.robots[robot].model];
+        let (n, m) = (model.n(), model.m());
+        let mut variables = vec![self.state(robot, step + 1, s)];
+        variables.extend((0..n).map(|j| self.state(robot, step, j)));
+        variables.extend((0..m).map(|j| self.input(robot, step, j)));
+        let mut numbers = vec![Rational::from(1)];
+        numbers.extend((0..n).map(|j| -&model.a[(s, j)]));
+        numbers.extend((0..m).map(|j| -&model.b[(s, j)]));
+        numbers.push(&model.c[s] + &model.mean()[s]);
+        let whole = primitive(&numbers);
+        if whole.iter().all(|x| x.bits() <= MANTISSA) {
+            numbers = whole;
+        }
+        let terms = variables.into_iter().zip(numbers.iter().map(Rational::to_f64));
+        row(terms.collect(), Relation::Equal, numbers.last().map_or(0.0, Rational::to_f64))
     }
 
     fn input_rows(&self, robot: RobotId, step: usize) -> Vec<Row> {

@@ -19,7 +19,7 @@ pub use circuit::Bit;
 pub use convex::{Block, Convex, Relation, Row, Variable};
 pub use leaf::{Anywhere, Face, Leaf, Reach};
 pub use links::Link;
-pub use whole::{Instance, Meaning, TooLarge};
+pub use whole::{Instance, Meaning, TooLarge, number};
 
 use std::collections::{HashMap, HashSet};
 

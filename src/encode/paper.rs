@@ -110,6 +110,21 @@ impl Encoder<'_> {
         }
     }
 
+    /// The variables of robots' being in cells, with who, where and when.
+    pub(super) fn cell_literals(&self) -> impl Iterator<Item = (Lit, RobotId, CellId, usize)> + '_ {
+        let steps = self.cells.iter().flat_map(|cells| cells.steps.iter().enumerate());
+        let robots = steps.flat_map(|(before, robots)| {
+            self.problem.robots.ids().zip(robots).map(move |(robot, cells)| (robot, cells, before + 1))
+        });
+        robots.flat_map(|(robot, cells, step)| {
+            let lit = move |(cell, bit): (usize, &Bit)| match bit {
+                Bit::Lit(lit) => Some((*lit, robot, CellId::new(cell), step)),
+                Bit::True | Bit::False => None,
+            };
+            cells.iter().enumerate().filter_map(lit)
+        })
+    }
+
     /// 'Certainly in' and 'certainly out', of the cells of a step after the first.
     pub(super) fn cell_labels(
         &mut self,

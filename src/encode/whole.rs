@@ -7,8 +7,8 @@
 use rustsat::instances::Cnf;
 use rustsat::types::Lit;
 
-use crate::abstraction::{Abstraction, Owner, SolidId};
-use crate::ir::Problem;
+use crate::abstraction::{Abstraction, CellId, Owner, SolidId};
+use crate::ir::{Problem, RobotId};
 use crate::tube::Tubes;
 
 use super::convex::{Builder, Convex};
@@ -33,6 +33,20 @@ pub enum Meaning {
     },
     /// The link is there at the step.
     Link(Link, usize),
+    /// With the paper's encoding: the robot is in the cell.
+    Cell {
+        /// Who.
+        robot: RobotId,
+        /// Where: a cell of the partition of the robot's model.
+        cell: CellId,
+        /// When.
+        step: usize,
+    },
+}
+
+/// The number of a literal in files: variables count from 1, negated ones are negative.
+pub fn number(lit: Lit) -> i32 {
+    lit.to_ipasir()
 }
 
 /// An instance that would be too large to write down.
@@ -87,7 +101,7 @@ impl Instance {
             match meaning {
                 Meaning::Leaf(leaf) => builder.add_leaf(*lit, leaf),
                 Meaning::Loop { length, start } => builder.add_loop(*lit, *length, *start),
-                Meaning::Length(_) | Meaning::Link(..) => {}
+                Meaning::Length(_) | Meaning::Link(..) | Meaning::Cell { .. } => {}
             }
         }
         let lengths = (from..=to).map(|length| (length, encoder.last(length))).collect();
@@ -126,7 +140,8 @@ impl Encoder<'_> {
     /// Makes every demand that a search could make, up to a length.
     fn demand_all(&mut self, length: usize) {
         for step in 0..=length {
-            for solid in self.abstraction.solids.ids() {
+            // Where there are cells, their relations keep moves and links clear.
+            for solid in self.abstraction.solids.ids().filter(|_| self.cells.is_none()).collect::<Vec<_>>() {
                 self.demand_clear(step, solid);
             }
             self.demand_all_apart(step);
@@ -185,6 +200,9 @@ impl Encoder<'_> {
         for (step, links) in self.links.iter().enumerate() {
             map.extend(links.iter().map(|(link, lit)| (lit, Meaning::Link(link, step))));
         }
+        map.extend(
+            self.cell_literals().map(|(lit, robot, cell, step)| (lit, Meaning::Cell { robot, cell, step })),
+        );
         map.extend(self.circuit.leaves().map(|(lit, leaf)| (lit, Meaning::Leaf(leaf))));
         map.sort_by_key(|(lit, _)| *lit);
         map

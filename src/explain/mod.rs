@@ -67,11 +67,13 @@ pub const PAGES: &[Page] = pages! {
         unknown_signal unknown_unit unsupported unused window_between_steps wrong_argument_count
         wrong_dimension wrong_index_count wrong_kind wrong_matrix_size wrong_point wrong_position;
     cli:
-        bad_name unknown_code unreadable unwritable usage;
+        bad_name too_large unknown_code unreadable unwritable usage;
     ir:
         invalid;
     plan:
         malformed;
+    smc:
+        altered malformed;
     syntax:
         chained_comparison double_equals empty expected foreign_letter hidden_character long_name
         lookalike misplaced_unit missing_comma missing_edition not_utf8 number_form number_range

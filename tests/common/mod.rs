@@ -1,0 +1,71 @@
+//! What several test programs need: a watch that never stops, and missions from texts and files.
+
+#![allow(dead_code, reason = "each test program uses a part of it")]
+#![allow(clippy::disallowed_methods, reason = "reads the corpus")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use dosmc::diag::Diagnostics;
+use dosmc::diag::render::{Style, render};
+use dosmc::driver::{self, Answer, Mission, Overrides};
+use dosmc::solve::{Progress, Watch};
+use dosmc::source::SourceFile;
+
+/// A clock that stands still: searches end by themselves.
+pub struct Patient;
+
+impl Watch for Patient {
+    fn stop(&self) -> bool {
+        false
+    }
+    fn progress(&self, _: &Progress) {}
+    fn now(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+/// A file of the package.
+pub fn package(path: impl AsRef<Path>) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// The missions in a directory of the package, sorted by name.
+pub fn missions(directory: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(package(directory)).expect("a directory of the package");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut found: Vec<PathBuf> = paths.filter(|p| p.extension().is_some_and(|e| e == "dosm")).collect();
+    found.sort();
+    assert!(!found.is_empty(), "no mission in {directory}");
+    found
+}
+
+/// The text of a mission.
+pub fn source(path: impl AsRef<Path>) -> SourceFile {
+    let path = package(path);
+    let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    SourceFile::new(path.file_name().expect("a file").to_string_lossy(), text)
+}
+
+/// A mission without errors.
+pub fn load(source: &SourceFile, overrides: &Overrides) -> Mission {
+    let mut diagnostics = Diagnostics::new();
+    match driver::load(source, overrides, &mut diagnostics) {
+        Ok(mission) => mission,
+        Err(_) => panic!("{}", render(source, diagnostics.sorted(), Style::PLAIN)),
+    }
+}
+
+/// Parameters and lengths for a mission.
+pub fn overrides(set: &[(&str, &str)], horizon: Option<(usize, usize)>) -> Overrides {
+    let set = set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
+    Overrides { set, horizon }
+}
+
+/// What a search that takes its time says.
+pub fn solve(mission: &Mission) -> Answer {
+    let watch: Arc<dyn Watch> = Arc::new(Patient);
+    driver::solve(mission, &watch).answer
+}

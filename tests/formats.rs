@@ -1,0 +1,246 @@
+//! Instances as files: what is written is read back the same, and a plan that the planner finds
+//! satisfies them.
+
+mod common;
+mod schema;
+
+use std::path::Path;
+
+use dosmc::abstraction::{Abstraction, Fineness};
+use dosmc::back::{cnf, smc, smt2};
+use dosmc::driver::{Answer, Encoding, Mission, Overrides};
+use dosmc::encode::{Convex, Instance, Relation, Row, Variable, number};
+use dosmc::exact::Rational;
+use dosmc::plan::Plan;
+use dosmc::source::SourceFile;
+use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
+use rustsat::types::Lit;
+use rustsat_batsat::BasicSolver;
+
+use common::{load, missions, overrides, solve, source};
+
+/// A mission with its instance for some lengths.
+struct Written {
+    source: SourceFile,
+    mission: Mission,
+    abstraction: Abstraction,
+    instance: Instance,
+}
+
+impl Written {
+    fn new(source: SourceFile, lengths: (usize, usize)) -> Written {
+        Written::with(source, lengths, Encoding::HalfSpaces)
+    }
+
+    fn with(source: SourceFile, lengths: (usize, usize), encoding: Encoding) -> Written {
+        let mission = load(&source, &overrides(&[], Some(lengths)));
+        let mut abstraction = Abstraction::new(&mission.problem, &mission.tubes, 1.0);
+        if encoding == Encoding::Paper {
+            abstraction =
+                abstraction.with_cells(&mission.problem, Fineness::Coarse).expect("a coarse partition");
+        }
+        let instance = Instance::new(&mission.problem, &mission.tubes, &abstraction, lengths);
+        Written { instance: instance.expect("a small instance"), source, mission, abstraction }
+    }
+
+    fn smc(&self) -> smc::Document {
+        let Mission { problem, tubes, .. } = &self.mission;
+        smc::document(&self.source.text, problem, tubes, &self.abstraction, &self.instance)
+    }
+}
+
+fn corpus() -> Vec<std::path::PathBuf> {
+    let directories = ["examples", "examples/paper", "tests/missions/solve", "tests/missions/unsat"];
+    directories.into_iter().flat_map(missions).collect()
+}
+
+#[test]
+fn an_instance_file_reads_back_as_it_was_written() {
+    let paper = missions("examples").into_iter().map(|path| (path, Encoding::Paper));
+    for (path, encoding) in corpus().into_iter().map(|path| (path, Encoding::HalfSpaces)).chain(paper) {
+        let written = Written::with(source(&path), (1, 2), encoding);
+        let document = written.smc();
+        let artifact = smc::write(&document);
+        let read = smc::read(&artifact.contents).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert!(read == document, "{}: not all of the instance was written", path.display());
+        assert!(smc::write(&read) == artifact, "{}: two texts for one instance", path.display());
+        let value = serde_json::from_str(&artifact.contents).expect("JSON");
+        schema::Closed::of("smc").assert_accepts(&value);
+        assert_eq!(artifact.name, format!("{}.smc.json", written.mission.problem.name));
+    }
+}
+
+#[test]
+fn a_dimacs_file_reads_back_as_it_was_written() {
+    for path in corpus() {
+        let written = Written::new(source(&path), (2, 2));
+        let Written { mission, abstraction, instance, .. } = &written;
+        let read = cnf::read(&cnf::write(&mission.problem, abstraction, instance).contents);
+        let read = read.unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert_eq!(read.variables as usize, instance.variables);
+        let clauses: Vec<Vec<i32>> =
+            instance.clauses.iter().map(|c| c.iter().map(|l| number(*l)).collect()).collect();
+        assert!(read.clauses == clauses, "{}: other clauses", path.display());
+        let literals: Vec<i32> = instance.map.iter().map(|(lit, _)| number(*lit)).collect();
+        assert_eq!(read.map.iter().map(|(lit, _)| *lit).collect::<Vec<_>>(), literals);
+        let texts: std::collections::BTreeSet<&String> = read.map.iter().map(|(_, text)| text).collect();
+        assert_eq!(texts.len(), literals.len(), "{}: two literals with one meaning", path.display());
+    }
+}
+
+/// A row as an SMT-LIB file says it.
+fn row_of(row: &Row, names: &[String]) -> smt2::ReadRow {
+    let exact = |x: f64| Rational::from_f64(x).expect("a finite number");
+    smt2::ReadRow {
+        terms: row.terms.iter().map(|(v, x)| (exact(*x), names[*v].clone())).collect(),
+        equal: row.relation == Relation::Equal,
+        bound: exact(row.bound),
+    }
+}
+
+#[test]
+fn an_smt_lib_file_says_exactly_the_instance() {
+    for path in corpus() {
+        let written = Written::new(source(&path), (2, 2));
+        let instance = &written.instance;
+        let names = written.smc().convex.variables;
+        let text = smt2::write(&written.mission.problem, instance).contents;
+        let script = smt2::read(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert_eq!(script.logic, "QF_LRA");
+        assert_eq!(script.reals, names);
+        assert_eq!(script.booleans.len(), instance.variables);
+        let literal = |lit: Lit| (format!("b{}", number(lit).abs()), number(lit) > 0);
+        let clauses = instance.clauses.iter().map(|clause| smt2::Assertion {
+            literals: clause.iter().map(|l| literal(*l)).collect(),
+            row: None,
+        });
+        let rows = instance.convex.blocks.iter().flat_map(|block| {
+            let names = &names;
+            block.rows.iter().map(move |row| smt2::Assertion {
+                literals: block.literal.iter().map(|l| literal(!*l)).collect(),
+                row: Some(row_of(row, names)),
+            })
+        });
+        let all: Vec<smt2::Assertion> = clauses.chain(rows).collect();
+        assert!(script.assertions == all, "{}: other assertions", path.display());
+    }
+}
+
+/// The numbers of a plan in the order of an instance's variables, the closing state included.
+fn values(convex: &Convex, plan: &Plan) -> Vec<f64> {
+    let value = |variable: &Variable| match *variable {
+        Variable::State { robot, step, state } => {
+            let step = if step > plan.length { plan.loop_start } else { step };
+            plan.robots[dosmc::entity::EntityId::index(robot)].z[step][state]
+        }
+        Variable::Input { robot, step, input } => {
+            plan.robots[dosmc::entity::EntityId::index(robot)].v[step][input]
+        }
+    };
+    convex.variables.iter().map(value).collect()
+}
+
+fn holds(row: &Row, values: &[f64]) -> bool {
+    let sum: f64 = row.terms.iter().map(|(v, x)| x * values[*v]).sum();
+    let size: f64 = row.terms.iter().map(|(v, x)| (x * values[*v]).abs()).sum();
+    let off = if row.relation == Relation::Equal { (sum - row.bound).abs() } else { sum - row.bound };
+    off <= 1e-9 * (1.0 + size)
+}
+
+/// Whether the Boolean part has a model with these literals.
+fn satisfiable(instance: &Instance, assumptions: &[Lit]) -> bool {
+    let mut solver = BasicSolver::default();
+    solver.add_cnf(instance.clauses.clone()).expect("enough memory");
+    solver.solve_assumps(assumptions).expect("an answer") == SolverResult::Sat
+}
+
+/// The planner's plan of a mission with the instance of its length.
+fn planned(path: &Path) -> Option<(Written, Box<Plan>)> {
+    let Answer::Plan { plan, .. } = solve(&load(&source(path), &Overrides::default())) else { return None };
+    Some((Written::new(source(path), (plan.length, plan.length)), plan))
+}
+
+#[test]
+fn a_plan_satisfies_the_instance() {
+    let mut satisfied = 0;
+    for path in corpus() {
+        let Some((written, plan)) = planned(&path) else { continue };
+        let instance = &written.instance;
+        let values = values(&instance.convex, &plan);
+        let mut assumptions: Vec<Lit> = instance.lengths.iter().map(|(_, lit)| *lit).collect();
+        for block in &instance.convex.blocks {
+            let all = block.rows.iter().all(|row| holds(row, &values));
+            match block.literal {
+                None => assert!(all, "{}: the plan violates {}", path.display(), block.name),
+                Some(lit) if !all => assumptions.push(!lit),
+                Some(_) => {}
+            }
+        }
+        // A link or move that the search accepted along some other direction is not in the file.
+        satisfied += usize::from(satisfiable(instance, &assumptions));
+    }
+    assert!(satisfied >= 25, "only {satisfied} plans satisfy their instances");
+}
+
+#[test]
+fn a_whole_horizon_has_all_its_lengths() {
+    let written = Written::new(source("tests/missions/solve/reach.dosm"), (1, 6));
+    let Answer::Plan { plan, .. } = solve(&written.mission) else { panic!("there is a plan") };
+    let lengths: Vec<usize> = written.instance.lengths.iter().map(|(length, _)| *length).collect();
+    assert_eq!(lengths, [1, 2, 3, 4, 5, 6]);
+    let both = |a: usize, b: usize| {
+        let lit = |length: usize| written.instance.lengths[length - 1].1;
+        satisfiable(&written.instance, &[lit(a), lit(b)])
+    };
+    assert!(both(plan.length, plan.length));
+    assert!(!both(plan.length, plan.length - 1), "two lengths at once");
+}
+
+/// Numbers rounded to what does not depend on the machine's last digits.
+fn rounded(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let end = start
+            + rest[start..]
+                .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | 'e')))
+                .unwrap_or(rest.len() - start);
+        let word = &rest[start..end];
+        out.push_str(&rest[..start]);
+        match word.parse::<f64>() {
+            Ok(value) if word.len() > 6 && word.contains('.') => out.push_str(&format!("~{value:.3e}")),
+            _ => out.push_str(word),
+        }
+        rest = &rest[end..];
+    }
+    out + rest
+}
+
+/// The smallest mission with a jammer and a base.
+const SMALL: &str = "\
+dosm 1
+mission small
+workspace box (0, 0) .. (4, 3)
+region shelf = box (2, 0.5) .. (3.5, 2.5)
+jammer noise = box (1, 2) .. (1.5, 3)
+base tower at (0.5, 0.5)
+dynamics Cart {
+  step 1 s
+  integrator 1
+  bound vx, vy in [-2, 2] m/s
+  disturbance px, py in [-0.125, 0.125] m
+}
+robot cart: Cart at (0.75, 0.75)
+goal there: eventually cart in shelf
+";
+
+#[test]
+fn the_formats_of_a_small_mission() {
+    let written = Written::new(SourceFile::new("small.dosm", SMALL), (1, 1));
+    insta::assert_snapshot!("small_smc", rounded(&smc::write(&written.smc()).contents));
+    let one = Written { instance: written.instance.clone().assuming_first_length(), ..written };
+    let problem = &one.mission.problem;
+    let dimacs = cnf::write(problem, &one.abstraction, &one.instance).contents;
+    insta::assert_snapshot!("small_cnf", rounded(&dimacs));
+    insta::assert_snapshot!("small_smt2", rounded(&smt2::write(problem, &one.instance).contents));
+}
