@@ -122,22 +122,24 @@ fn rounded(corners: &[Pixel], radius: f64) -> String {
         let (left, right, y) = (px(x - radius), px(x + radius), px(*y));
         return format!("M{left} {y}A{r} {r} 0 1 0 {right} {y}A{r} {r} 0 1 0 {left} {y}Z");
     }
-    let mut path = String::new();
-    for (i, from) in corners.iter().enumerate() {
-        let to = corners[(i + 1) % corners.len()];
+    let edge = |i: usize| {
+        let (from, to) = (corners[i], corners[(i + 1) % corners.len()]);
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = dx.hypot(dy);
         // Outwards is to the right of the way around, which with y downwards is (−dy, dx).
         let (ox, oy) = (-dy / length * radius, dx / length * radius);
-        let (a, b) = ((from.0 + ox, from.1 + oy), (to.0 + ox, to.1 + oy));
-        let lead = if i == 0 { "M".to_string() } else { format!("A{r} {r} 0 0 0 ") };
-        let _ = write!(path, "{lead}{} {}L{} {}", px(a.0), px(a.1), px(b.0), px(b.1));
+        [(from.0 + ox, from.1 + oy), (to.0 + ox, to.1 + oy)]
+    };
+    let mut path = String::new();
+    for i in 0..corners.len() {
         if i == 0 {
-            continue;
+            let [start, _] = edge(0);
+            let _ = write!(path, "M{} {}", px(start.0), px(start.1));
         }
+        let ([_, end], [next, _]) = (edge(i), edge((i + 1) % corners.len()));
+        let _ = write!(path, "L{} {}A{r} {r} 0 0 0 {} {}", px(end.0), px(end.1), px(next.0), px(next.1));
     }
-    let first = path.get(1..).and_then(|p| p.split('L').next()).unwrap_or_default().to_string();
-    path + &format!("A{r} {r} 0 0 0 {first}Z")
+    path + "Z"
 }
 
 #[cfg(test)]
