@@ -58,6 +58,7 @@ Examples:
   dosmc solve examples/relay.dosm -o out --horizon 1..30 --timeout 1min
   dosmc solve examples/patrol.dosm -o out --json
   dosmc solve examples/first.dosm -o out --encoding paper -v
+  dosmc compile examples/first.dosm -o out --emit smc && dosmc solve out/first.smc.json -o out
 
 Exit status:
   0  a plan was found and checked (--json: `shortest` if none is shorter)
@@ -98,6 +99,7 @@ with `--features png`.
 Examples:
   dosmc solve examples/relay.dosm -o out
   dosmc render out/plan.json examples/relay.dosm -o relay.svg
+  dosmc render out/plan.json examples/relay.dosm -o cells.svg --encoding paper
 
 Exit status:
   0  drawn
@@ -107,18 +109,28 @@ Exit status:
 
 /// `compile`.
 pub const COMPILE: &str = "\
-DIR gets a file for each format: NAME.ir.json (`ir`) is the mission with exact numbers, all
-names resolved and families written out, for tools of your own; docs/schemas describes it.
-All files are written whole, or none is.
+DIR gets a file for each format, for tools of your own. All are written whole, or none is.
+Without --length, smc has all lengths of the horizon, cnf and smt2 the first of them.
+
+Formats:
+  ir    NAME.ir.json: the mission with exact numbers, names resolved, families written out
+  smc   NAME.smc.json: the whole instance: clauses, convex rows, what literals stand for
+  cnf   NAME.cnf: its Boolean part in DIMACS, for SAT solvers
+  smt2  NAME.smt2: one length in SMT-LIB, for SMT solvers
 
 Examples:
   dosmc compile examples/relay.dosm -o out --emit ir
+  dosmc compile examples/first.dosm -o out --emit smc,cnf,smt2 --length 6
+  dosmc compile examples/first.dosm -o out --emit smc --horizon 1..8
 
 Exit status:
   0  written
   1  usage, or a file can't be read or written
   2  the mission has errors
-  4  unknown: time ran out first";
+  4  unknown: time ran out first
+
+Where to go next:
+  docs/schemas describes the JSON files; `dosmc solve NAME.smc.json` plans from an instance.";
 
 /// `new`.
 pub const NEW: &str = "\
