@@ -174,3 +174,23 @@ fn cells_that_are_too_coarse_are_refined() {
         assert!(fine.cells > coarse.cells && fine.statistics.not_clear == 0);
     }
 }
+
+/// Cells grow with the square of the jammers: where there would be too many, that is said at once.
+#[test]
+fn a_field_of_jammers_has_too_many_cells() {
+    let mut text = String::from("dosm 1\nworkspace box (0, 0) .. (52, 52)\n");
+    for i in 0..5 {
+        for j in 0..5 {
+            // Out of line, so that no two share a plane.
+            let (x, y) = (10.0 * f64::from(i) + 6.0 + 0.13 * f64::from(j), 10 * j + 6);
+            text += &format!("jammer J{i}{j} = ball ({x:.2}, {y}.{i}) radius 1.5\n");
+        }
+    }
+    text += "region far = box (48, 48) .. (51, 51)\nconnectivity none\nhorizon 1..40\n\
+             dynamics Rover {\n step 0.5 s\n integrator 2\n bound vx, vy in [-4, 4] m/s\n \
+             bound ax, ay in [-4, 4] m/s^2\n disturbance px, py in [-0.2, 0.2] m\n}\n\
+             robot r: Rover at (1, 2)\ngoal g: eventually r in far\n";
+    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    let refused = driver::solve_with(&load(&text, &[]), Encoding::Paper, &watch);
+    assert!(refused.is_err_and(|e| e.to_string().contains("more than 2000 cells")));
+}

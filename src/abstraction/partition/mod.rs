@@ -35,7 +35,7 @@ entity_id!(
 );
 
 /// The most cells of one model before merging: their relations grow with the square.
-pub const MOST_CELLS: usize = 4000;
+pub const MOST_CELLS: usize = 2000;
 
 /// Cells thinner than this share of the gap do not count.
 const GRAIN: f64 = 0.05;
