@@ -29,7 +29,8 @@ def rows():
     for robots in (2, 3, 4):
         for states in (4, 6, 8):
             for bases in (1, 2):
-                name = f"Table I: {robots} robots, {states} states, {bases} bases"
+                plural = "base" if bases == 1 else "bases"
+                name = f"Table I: {robots} robots, {states} states, {bases} {plural}"
                 yield name, f"table1-{states}", {"robots": robots, "bases": bases}
     for states in (4, 6, 8):
         yield f"Fig. 2: 3 robots, {states} states, 1 base", f"fig2-{states}", {"robots": 3, "bases": 1}
