@@ -5,6 +5,8 @@
 //! `cadical`. Without them the tests say loudly that nothing was compared, and fail where
 //! `DOSMC_REQUIRE_TOOLS` is set.
 
+#![allow(clippy::disallowed_methods, reason = "writes files and runs other programs on them")]
+
 mod common;
 
 use std::fs;
