@@ -12,6 +12,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use dosmc::abstraction::{Abstraction, Body, Owner, SolidId};
 use dosmc::back::{cnf, smt2};
@@ -134,8 +135,12 @@ impl Asked {
     }
 }
 
+/// Who has it may run Z3: its time limit is one of wall time.
+static ALONE: Mutex<()> = Mutex::new(());
+
 /// What Z3 says of an SMT-LIB file.
 fn ask_z3(z3: &str, asked: &Asked) -> bool {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let artifact = smt2::write(&asked.mission.problem, &asked.instance);
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join(&artifact.name);
@@ -223,8 +228,13 @@ fn small(path: &Path, robots: usize) -> bool {
 fn z3_agrees_on_small_examples() {
     let Some(z3) = tool("DOSMC_Z3", &["z3"]) else { return };
     let examples = missions("examples").into_iter().filter(|p| small(p, 2));
-    // Of the corpus those with one robot: two with long numbers can take Z3 minutes.
-    let others = missions("tests/missions/solve").into_iter().filter(|p| small(p, 1));
+    // Of the corpus those with one robot and short numbers: what an exponential gives has 53 bits, with
+    // which Z3 can take minutes.
+    let short = |p: &Path| {
+        let problem = load(&source(p), &Overrides::default()).problem;
+        problem.models.values().all(|m| m.enclosure.is_none())
+    };
+    let others = missions("tests/missions/solve").into_iter().filter(|p| small(p, 1) && short(p));
     let mut compared = 0;
     for path in examples.chain(others) {
         compared += compare(&z3, &path, &[], &around_the_shortest(&path, &[]));
