@@ -11,6 +11,7 @@ use std::path::Path;
 
 use dosmc::check::check;
 use dosmc::diag::Diagnostics;
+use dosmc::driver::{self, Overrides};
 use dosmc::source::SourceFile;
 use dosmc::syntax::parse;
 
@@ -170,4 +171,26 @@ fn whatever_passes_the_check_is_a_valid_problem() {
         passed += 1;
     }
     assert!(passed > damaged() / 20, "only {passed} missions survived the damage");
+}
+
+/// What a mission means and what is said about it, as text.
+fn meaning(text: &str) -> String {
+    let source = SourceFile::new("mission.dosm", text);
+    let mut diagnostics = Diagnostics::new();
+    let mission = driver::load(&source, &Overrides::default(), &mut diagnostics);
+    let problem = mission.map(|mission| mission.problem.to_string()).unwrap_or_default();
+    diagnostics.iter().fold(problem, |text, d| format!("{text}{}\n", d.message))
+}
+
+#[test]
+fn no_declaration_is_read_and_then_forgotten() {
+    let path = root().join("tests/missions/ok/everything.dosm");
+    let text = fs::read_to_string(path).expect("a text");
+    let file = parse(&SourceFile::new("mission.dosm", text.as_str()), &mut Diagnostics::new());
+    let whole = meaning(&text);
+    let declarations = file.expect("it parses").items.into_iter().map(|item| item.span.range());
+    let without = |range: &std::ops::Range<usize>| [&text[..range.start], &text[range.end..]].concat();
+    let idle: Vec<&str> =
+        declarations.filter(|range| meaning(&without(range)) == whole).map(|range| &text[range]).collect();
+    assert!(idle.is_empty(), "without these the IR's text is the same: {idle:#?}");
 }

@@ -85,3 +85,14 @@ fn every_command_teaches_in_lines_that_fit() {
         assert_eq!(wide, None, "`{command}`: a line that a terminal breaks");
     }
 }
+
+#[test]
+fn every_format_of_compile_is_explained() {
+    let text = help(&["compile"]);
+    let formats = text.split("[possible values: ").nth(1).and_then(|rest| rest.split(']').next());
+    let formats: Vec<&str> = formats.expect("the formats").split(',').map(str::trim).collect();
+    assert!(formats.contains(&"ir"), "{formats:?}");
+    let told = |format: &&str| lesson(&text).lines().any(|l| l.starts_with(&format!("  {format} ")));
+    let untold: Vec<&&str> = formats.iter().filter(|format| !told(format)).collect();
+    assert!(untold.is_empty(), "`compile --help` says nothing of {untold:?}");
+}

@@ -60,7 +60,20 @@ const LONGEST_STEM: usize = 100;
 
 #[cfg(test)]
 mod tests {
-    use super::file_name;
+    use super::{Emit, file_name};
+
+    #[test]
+    fn all_formats_are_listed_in_order() {
+        let source = include_str!("mod.rs");
+        let body = source.split("pub enum Emit {").nth(1).and_then(|rest| rest.split('}').next()).unwrap();
+        let declared: Vec<&str> = body
+            .lines()
+            .filter_map(|line| line.trim().strip_suffix(','))
+            .filter(|l| !l.contains('/'))
+            .collect();
+        let listed: Vec<String> = Emit::ALL.iter().map(|emit| format!("{emit:?}")).collect();
+        assert_eq!(declared, listed, "`Emit::ALL` lacks a format or has it elsewhere");
+    }
 
     #[test]
     fn file_names_are_harmless() {

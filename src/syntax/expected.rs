@@ -304,6 +304,23 @@ mod tests {
         assert_eq!(there, here);
     }
 
+    #[test]
+    fn the_words_that_begin_declarations_are_starters() {
+        let grammar = include_str!("../../grammar/dosm.pest");
+        let body = |rule: &str| {
+            let line = grammar.lines().find(|l| l.split_whitespace().take(2).eq([rule, "="]));
+            line.unwrap_or_else(|| panic!("no rule {rule}"))
+        };
+        let list = grammar.split("\ndeclaration = {").nth(1).and_then(|rest| rest.split('}').next()).unwrap();
+        let rules: Vec<&str> = list.split('|').map(str::trim).collect();
+        assert!(rules.len() > 15, "{rules:?}");
+        for rule in rules {
+            let first = body(rule).split("kw_").nth(1).and_then(|rest| rest.split([' ', '?']).next());
+            let word = first.unwrap_or_else(|| panic!("{rule} begins with no keyword"));
+            assert!(STARTERS.contains(&word), "`{word}` begins a declaration and is not in STARTERS");
+        }
+    }
+
     /// Rules that are parts of tokens or not tracked.
     fn is_lexical(rule: Rule) -> bool {
         matches!(rule, Rule::line_comment | Rule::block_comment | Rule::unit_symbol | Rule::unit_power)

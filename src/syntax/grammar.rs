@@ -84,6 +84,26 @@ mod tests {
         assert!(run(Rule::file, &text.replace("*/", "")).is_err());
     }
 
+    /// Rules that leave no node: parts of tokens, blanks, and those for texts that are no whole file.
+    fn is_unseen(rule: Rule) -> bool {
+        use Rule::*;
+        let parts =
+            [WHITESPACE, COMMENT, line_comment, block_comment, idchar, digits, unit_symbol, unit_power];
+        let others = [lone_declaration, leading_declaration, lone_expression, reserved];
+        parts.contains(&rule) || others.contains(&rule)
+    }
+
+    #[test]
+    fn a_mission_of_the_corpus_shows_every_rule() {
+        // Of connectivity there is only one in a mission.
+        let texts = [include_str!("../../tests/missions/parse/everything.dosm"), "connectivity none"];
+        let nodes = texts.into_iter().flat_map(|text| run(Rule::file, text).unwrap().flatten());
+        let seen: Vec<Rule> = nodes.map(|node| node.as_rule()).collect();
+        let missing: Vec<&Rule> =
+            Rule::all_rules().iter().filter(|rule| !seen.contains(rule) && !is_unseen(**rule)).collect();
+        assert!(missing.is_empty(), "tests/missions/parse/everything.dosm has no {missing:?}");
+    }
+
     #[test]
     fn signs_and_keywords_stand_last() {
         for rule in Rule::all_rules() {

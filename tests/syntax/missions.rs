@@ -20,7 +20,10 @@ fn the_references_mission_parses() {
 fn the_tree_of_every_construct() {
     let (file, diagnostics) = parse(include_str!("../missions/parse/everything.dosm"));
     assert!(diagnostics.is_empty(), "{diagnostics:#?}");
-    insta::assert_snapshot!(syntax::dump(&file.unwrap()));
+    let tree = syntax::dump(&file.unwrap());
+    let blank = tree.lines().position(|line| line.trim().is_empty());
+    assert_eq!(blank, None, "a declaration that `syntax::dump` does not know");
+    insta::assert_snapshot!(tree);
 }
 
 /// The missions whose only errors are of the code that their name says.
