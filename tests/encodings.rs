@@ -5,26 +5,17 @@
 
 #![allow(clippy::disallowed_methods, reason = "reads the corpus")]
 
+mod common;
+
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
 use dosmc::diag::Diagnostics;
 use dosmc::driver::{self, Answer, Encoding, Mission, Overrides, Solved};
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 
-struct Patience;
-
-impl Watch for Patience {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
-}
+use common::Patient;
 
 fn load(text: &str, set: &[(&str, &str)]) -> Mission {
     let source = SourceFile::new("mission.dosm", text);
@@ -34,7 +25,7 @@ fn load(text: &str, set: &[(&str, &str)]) -> Mission {
 }
 
 fn solve(mission: &Mission, encoding: Encoding) -> Solved {
-    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    let watch: Arc<dyn Watch> = Arc::new(Patient);
     driver::solve_with(mission, encoding, &watch).expect("few cells")
 }
 
@@ -190,7 +181,7 @@ fn a_field_of_jammers_has_too_many_cells() {
              dynamics Rover {\n step 0.5 s\n integrator 2\n bound vx, vy in [-4, 4] m/s\n \
              bound ax, ay in [-4, 4] m/s^2\n disturbance px, py in [-0.2, 0.2] m\n}\n\
              robot r: Rover at (1, 2)\ngoal g: eventually r in far\n";
-    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    let watch: Arc<dyn Watch> = Arc::new(Patient);
     let refused = driver::solve_with(&load(&text, &[]), Encoding::Paper, &watch);
     assert!(refused.is_err_and(|e| e.to_string().contains("more than 2000 cells")));
 }

@@ -2,19 +2,22 @@
 
 #![allow(clippy::disallowed_methods, reason = "reads the sources and runs the command")]
 
+mod common;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
-use std::time::Duration;
 
 use dosmc::diag::{Diagnostic, Diagnostics};
 use dosmc::driver::{self, Answer, Overrides};
 use dosmc::explain::{PAGES, Page};
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 use serde_json::Value;
+
+use common::Patient;
 
 /// Codes that no mission of a page can show, and why.
 const WITHOUT_MISSION: [(&str, &str); 20] = [
@@ -226,19 +229,6 @@ fn nothing_is_said_about_mended_missions() {
         wrong.extend(messages.map(|message| format!("{}: {message}", page.code)));
     }
     assert_none(wrong);
-}
-
-/// A clock that stands still: searches end by themselves.
-struct Patient;
-
-impl Watch for Patient {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
 }
 
 #[test]

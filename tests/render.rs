@@ -3,38 +3,27 @@
 
 #![allow(clippy::disallowed_methods, reason = "runs the command and looks at its files")]
 
+mod common;
 mod picture;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{Arc, LazyLock};
-use std::time::Duration;
 
 use dosmc::back::svg::{self, Options};
 use dosmc::diag::Diagnostics;
 use dosmc::driver::{self, Answer, Overrides};
 use dosmc::ir::{Base, Blocker, Problem, Region, Robot};
 use dosmc::plan::Plan;
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 use proptest::prelude::*;
 use serde_json::Value;
 
+use common::Patient;
+
 const RELAY: &str = "examples/relay.dosm";
-
-/// A clock that stands still: searches end by themselves.
-struct Patient;
-
-impl Watch for Patient {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
-}
 
 /// A mission of the package with its plan.
 fn planned(path: &str) -> (Problem, Plan) {

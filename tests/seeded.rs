@@ -4,6 +4,8 @@
 //! the encoder or the abstraction had the bug; the plan that it finds is then checked against the
 //! mission itself.
 
+mod common;
+
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -18,17 +20,7 @@ use dosmc::source::SourceFile;
 use dosmc::tube::Tubes;
 use dosmc::verify::{Kind, verify};
 
-struct Patience;
-
-impl Watch for Patience {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
-}
+use common::Patient;
 
 fn load(text: &str) -> Mission {
     let source = SourceFile::new("mission.dosm", text);
@@ -39,7 +31,7 @@ fn load(text: &str) -> Mission {
 
 fn search(problem: &Problem, tubes: &Tubes) -> (Option<Box<Nominal>>, Abstraction) {
     let abstraction = Abstraction::new(problem, tubes, 1.0);
-    let options = Options { horizon: problem.horizon, watch: Arc::new(Patience) };
+    let options = Options { horizon: problem.horizon, watch: Arc::new(Patient) };
     match solve::solve(problem, tubes, &abstraction, &options).0 {
         Outcome::Plan(nominal) => (Some(nominal), abstraction),
         _ => (None, abstraction),
@@ -161,7 +153,7 @@ fn erratum_p14_no_plan_is_said_of_exhausted_lengths_only() {
     let mission = load(include_str!("missions/solve/reach.dosm"));
     let (nominal, abstraction) = search(&mission.problem, &mission.tubes);
     let length = nominal.unwrap().length;
-    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    let watch: Arc<dyn Watch> = Arc::new(Patient);
     let short = Options { horizon: (1, length - 1), watch };
     let (outcome, _) = solve::solve(&mission.problem, &mission.tubes, &abstraction, &short);
     assert!(matches!(outcome, Outcome::NoPlan), "{outcome:?}");

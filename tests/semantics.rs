@@ -5,17 +5,20 @@
 //! two overlapping regions), and the loop may go back to any position. All lassos of up to five
 //! positions are tried, and the formulas are evaluated here by walking along the lasso.
 
+mod common;
+
 use std::fmt;
 use std::sync::Arc;
-use std::time::Duration;
 
 use dosmc::diag::Diagnostics;
 use dosmc::driver::{self, Answer, Overrides};
 use dosmc::plan::{Label, Plan};
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+use common::Patient;
 
 /// The longest length tried.
 const LONGEST: usize = 4;
@@ -157,18 +160,6 @@ fn mission(formula: &Ltl) -> String {
     )
 }
 
-struct Patience;
-
-impl Watch for Patience {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
-}
-
 fn formulas() -> impl Strategy<Value = Ltl> {
     let window = prop_oneof![
         2 => Just(None),
@@ -228,7 +219,7 @@ fn agrees(formula: &Ltl) -> Result<(), TestCaseError> {
         prop_assert_eq!(expected, None, "{} is refused: {:?}", formula, diagnostics);
         return Ok(());
     };
-    let watch: Arc<dyn Watch> = Arc::new(Patience);
+    let watch: Arc<dyn Watch> = Arc::new(Patient);
     match driver::solve(&mission, &watch).answer {
         Answer::Plan { plan, shortest, .. } => {
             prop_assert!(shortest);

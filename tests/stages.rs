@@ -3,19 +3,21 @@
 //! A snapshot stands beside its mission, `NAME.STAGE.snap`. An empty directory fails: the harness
 //! wants at least one mission for each pattern.
 
+mod common;
 mod picture;
 mod schema;
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
 use dosmc::diag::render::{Style, render};
 use dosmc::diag::{Diagnostic, Diagnostics, Severity};
 use dosmc::driver::{self, Answer, Mission, Overrides};
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 use dosmc::{back, plan, syntax, verify};
+
+use common::Patient;
 
 type Outcome = datatest_stable::Result<()>;
 
@@ -35,19 +37,6 @@ datatest_stable::harness! {
     { test = planned, root = "tests/missions/solve", pattern = r"\.dosm$" },
     { test = planned, root = "examples", pattern = r"\.dosm$" },
     { test = not_planned, root = "tests/missions/unsat", pattern = r"\.dosm$" },
-}
-
-/// A clock that stands still: searches end by themselves.
-struct Patient;
-
-impl Watch for Patient {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
 }
 
 /// The mission's text; bytes that are no text stop at the diagnostic that says so.

@@ -5,31 +5,18 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use dosmc::diag::Diagnostics;
 use dosmc::driver::{Answer, Overrides, load, solve};
 use dosmc::ir::Problem;
 use dosmc::plan::{Plan, json};
-use dosmc::solve::{Progress, Watch};
+use dosmc::solve::Watch;
 use dosmc::source::SourceFile;
 use dosmc::verify::verify;
 
+use crate::common::Patient;
 use crate::forge::forge;
 use crate::sampling::{Dice, counterexample};
-
-/// Lets a search run to its end.
-struct Patient;
-
-impl Watch for Patient {
-    fn stop(&self) -> bool {
-        false
-    }
-    fn progress(&self, _: &Progress) {}
-    fn now(&self) -> Duration {
-        Duration::ZERO
-    }
-}
 
 fn solved(path: &Path) -> (Problem, Plan) {
     solved_text(&path.to_string_lossy(), &std::fs::read_to_string(path).unwrap())

@@ -2,6 +2,8 @@
 
 mod bounds;
 mod cases;
+#[path = "../common/mod.rs"]
+mod common;
 mod flights;
 mod forge;
 mod links;
