@@ -343,7 +343,7 @@ fn errors_point_to_their_page_once() {
 fn tool(program: &str, args: &[&str], file: &Path) -> Option<Output> {
     let output = Command::new(program).args(args).arg(file).output();
     if output.is_err() {
-        eprintln!("SKIPPED: `{program}` is not installed, so its part of this test did not run");
+        common::skipped(&format!("`{program}` is not installed, so its part of this test did not run"));
     }
     output.ok()
 }

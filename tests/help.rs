@@ -3,6 +3,8 @@
 #![cfg(unix)]
 #![allow(clippy::disallowed_methods, reason = "runs the command")]
 
+mod common;
+
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
@@ -62,7 +64,7 @@ fn every_example_runs_from_the_repository_root() {
         assert!(!examples.is_empty(), "`{command}` has no examples:\n{text}");
         for line in examples {
             if line.contains("man -") && !has_man {
-                eprintln!("SKIPPED: `man` is not installed, so `{line}` did not run");
+                common::skipped(&format!("`man` is not installed, so `{line}` did not run"));
                 continue;
             }
             let output = shell(line, dir.path());
