@@ -57,7 +57,7 @@ const MAY_NAME: [(&str, &[&str]); 22] = [
 ];
 
 /// Names of crates and of the standard library with the only places (path prefixes) for them.
-const BORDERS: [(&str, &[&str]); 27] = [
+const BORDERS: [(&str, &[&str]); 28] = [
     ("pest", &["src/syntax"]),
     ("pest_derive", &["src/syntax"]),
     ("rustsat", &["src/encode", "src/solve", "src/back/cnf"]),
@@ -73,6 +73,7 @@ const BORDERS: [(&str, &[&str]); 27] = [
     ("ctrlc", &["src/cli"]),
     ("resvg", &["src/cli/png.rs"]),
     ("tempfile", &["src/cli"]),
+    ("indicatif", &["src/cli"]),
     ("terminal_size", &["src/cli"]),
     ("strsim", &["src/explain"]),
     ("std::fs", &["src/cli", "src/main.rs"]),

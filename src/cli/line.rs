@@ -1,54 +1,44 @@
 //! The progress line of a long command: one line at the bottom of a terminal, gone at the end.
-//!
-//! It is drawn over itself in one write, with a carriage return and blanks alone: nothing flickers,
-//! and every terminal knows how.
 
-use std::io::{self, Write};
 use std::time::Duration;
 
-use terminal_size::terminal_size_of;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::diag::printable;
 use crate::solve::Progress;
 
 /// The longest name that is shown whole.
 const LONGEST_NAME: usize = 16;
-/// What turns at the beginning of the line while there is nothing else to see.
-const FRAMES: [char; 6] = ['⠏', '⠛', '⠹', '⠼', '⠶', '⠧'];
 
 /// A line that is drawn over and over.
 #[derive(Debug, Default)]
 pub struct Line {
-    /// How many columns are taken.
-    taken: usize,
-    drawn: usize,
+    bar: Option<ProgressBar>,
 }
 
 impl Line {
-    /// Draws the line in place of what it was.
+    /// Draws the line in place of what it was, cut to the terminal.
     pub fn draw(&mut self, text: &str) {
-        let columns = terminal_size_of(io::stderr()).map_or(80, |(width, _)| usize::from(width.0));
-        let frame = FRAMES[self.drawn % FRAMES.len()];
-        self.drawn += 1;
-        // A character in the last column makes some terminals begin another line.
-        let line = cut(&format!("{frame} {text}"), columns.saturating_sub(1));
-        let length = line.chars().count();
-        self.write(&format!("\r{line}{}", " ".repeat(self.taken.saturating_sub(length))));
-        self.taken = length;
+        let bar = self.bar.get_or_insert_with(new_bar);
+        bar.set_message(text.to_owned());
+        bar.tick();
     }
 
     /// Takes the line away, until it is drawn again.
     pub fn clear(&mut self) {
-        if self.taken > 0 {
-            self.write(&format!("\r{}\r", " ".repeat(self.taken)));
-            self.taken = 0;
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
         }
     }
+}
 
-    fn write(&self, text: &str) {
-        // Nobody is left to see it when standard error is gone.
-        let _ = io::stderr().lock().write_all(text.as_bytes());
+fn new_bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    // A template that could not be read would leave the line plain.
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_msg}") {
+        bar.set_style(style);
     }
+    bar
 }
 
 /// A text of so many characters at most.
