@@ -40,6 +40,7 @@ use report::{Ledger, Place};
 
 /// Checks a plan against a problem that satisfies `ir`'s invariants.
 pub fn verify(problem: &Problem, plan: &Plan) -> Report {
+    nothing_is_forgotten(problem);
     let mut ledger = Ledger::default();
     mission(problem, plan, &mut ledger);
     if let Some(resolved) = resolve::resolve(problem, plan, &mut ledger) {
@@ -53,6 +54,41 @@ pub fn verify(problem: &Problem, plan: &Plan) -> Report {
         objective::check(&resolved, plan.objective.as_ref(), &mut ledger);
     }
     ledger.into_report(problem.sha256.eq_ignore_ascii_case(&plan.mission.sha256))
+}
+
+/// Names every part of a problem with where it is looked at, so that a new one does not compile until
+/// somebody has said where it is checked: a requirement that is forgotten here would be accepted.
+fn nothing_is_forgotten(problem: &Problem) {
+    let Problem {
+        // `mission`
+        name: _,
+        set: _,
+        step: _,
+        // said, no part of the verdict
+        sha256: _,
+        // `resolve`, and everywhere
+        dimension: _,
+        robots: _,
+        // `tube`, `bounds`
+        models: _,
+        workspace: _,
+        // `regions`, `goals`
+        regions: _,
+        formulas: _,
+        goals: _,
+        // `blockers`, `links`
+        blockers: _,
+        bases: _,
+        connectivity: _,
+        // `separation`
+        separation: _,
+        // `objective`
+        objective: _,
+        // says nothing
+        doc: _,
+        // what was searched, no part of a plan
+        horizon: _,
+    } = problem;
 }
 
 /// Whether the plan says that it is one of this mission.
