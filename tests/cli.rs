@@ -2,6 +2,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "runs the command and looks at its files")]
 
+mod common;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -518,6 +520,9 @@ fn verbose_lists_the_phases() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_gets_a_progress_line_that_goes_away() {
+    if Command::new("script").arg("--version").output().is_err() {
+        return common::skipped("`script` is not installed, so nothing was shown on a terminal");
+    }
     let on_terminal = |more: &str| {
         let dir = temporary();
         let program = env!("CARGO_BIN_EXE_dosmc");

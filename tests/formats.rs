@@ -162,7 +162,7 @@ fn planned(path: &Path) -> Option<(Written, Box<Plan>)> {
 
 #[test]
 fn a_plan_satisfies_the_instance() {
-    let mut satisfied = 0;
+    let (mut satisfied, mut others) = (0, Vec::new());
     for path in corpus() {
         let Some((written, plan)) = planned(&path) else { continue };
         let instance = &written.instance;
@@ -176,10 +176,13 @@ fn a_plan_satisfies_the_instance() {
                 Some(_) => {}
             }
         }
-        // A link or move that the search accepted along some other direction is not in the file.
-        satisfied += usize::from(satisfiable(instance, &assumptions));
+        match satisfiable(instance, &assumptions) {
+            true => satisfied += 1,
+            false => others.push(written.mission.problem.name.clone()),
+        }
     }
-    assert!(satisfied >= 25, "only {satisfied} plans satisfy their instances");
+    // A link or move that the search accepted along some other direction is not in the file.
+    assert!(satisfied >= 25 && others.len() <= 3, "{satisfied} satisfied, not so {others:?}");
 }
 
 #[test]

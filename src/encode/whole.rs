@@ -14,8 +14,8 @@ use crate::tube::Tubes;
 use super::convex::{Builder, Convex};
 use super::{Anywhere, Encoder, End, Leaf, Link, link_ends};
 
-/// The most clauses that a whole instance may be expected to have.
-const LARGEST: u64 = 20_000_000;
+/// The most clauses that a whole instance may be expected to have: its file stays below what is read.
+const LARGEST: u64 = 5_000_000;
 
 /// What a literal of the Boolean part stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +130,12 @@ fn expected_clauses(problem: &Problem, abstraction: &Abstraction, (from, to): (u
         };
         3 * ways * solid.faces.len() as u64
     };
-    let step: u64 = abstraction.solids.iter().map(clear).sum();
+    let cells = abstraction.partition.as_ref().map(|p| p.count() as u64);
+    let step: u64 = match cells {
+        // A cell has its facets, moves to and from it, and what is seen from it.
+        Some(cells) => cells * (10 * robots + links),
+        None => abstraction.solids.iter().map(clear).sum(),
+    };
     let lengths = (from..=to).fold(0u64, |sum, length| sum.saturating_add(length as u64 + 1));
     let formulas = problem.formulas.nodes().len() as u64 + 1;
     (to as u64 + 1).saturating_mul(step).saturating_add(lengths.saturating_mul(formulas))
@@ -141,8 +146,8 @@ impl Encoder<'_> {
     fn demand_all(&mut self, length: usize) {
         for step in 0..=length {
             // Where there are cells, their relations keep moves and links clear.
-            for solid in self.abstraction.solids.ids().filter(|_| self.cells.is_none()).collect::<Vec<_>>() {
-                self.demand_clear(step, solid);
+            if self.cells.is_none() {
+                self.abstraction.solids.ids().for_each(|solid| self.demand_clear(step, solid));
             }
             self.demand_all_apart(step);
         }
