@@ -199,6 +199,60 @@ fn a_whole_horizon_has_all_its_lengths() {
     assert!(!both(plan.length, plan.length - 1), "two lengths at once");
 }
 
+/// The rows that a literal switches on, with the names of variables.
+fn switched(document: &smc::Document, literal: i32) -> Vec<(Vec<(&str, f64)>, f64)> {
+    let blocks = document.convex.blocks.iter().filter(|b| b.literal == Some(literal));
+    let named = |row: &smc::document::Row| {
+        let terms = row.terms.iter().map(|(v, x)| (document.convex.variables[*v].as_str(), *x));
+        (terms.collect(), row.bound)
+    };
+    blocks.flat_map(|b| b.rows.iter().map(named)).collect()
+}
+
+#[test]
+fn the_map_says_what_the_rows_do() {
+    let mut seen = [0, 0, 0];
+    for path in corpus() {
+        let document = Written::new(source(&path), (2, 2)).smc();
+        let at = |robot: &str, step: usize| format!("{robot}.z[{step}].");
+        for entry in &document.map.half_spaces {
+            let half_space = &document.half_spaces[entry.half_space];
+            let rows = switched(&document, entry.literal);
+            let [(terms, bound)] = &rows[..] else { panic!("{}: {rows:?}", path.display()) };
+            assert_eq!(*bound, half_space.offset);
+            assert!(terms.iter().all(|(name, _)| name.starts_with(&at(&entry.robot, entry.step))));
+            let coefficients: Vec<f64> = terms.iter().map(|(_, x)| *x).collect();
+            let direction: Vec<f64> = half_space.direction.iter().copied().filter(|x| *x != 0.0).collect();
+            assert_eq!(coefficients, direction);
+            seen[0] += 1;
+        }
+        for face in &document.map.faces {
+            let rows = switched(&document, face.literal);
+            assert_eq!(rows.len(), 2);
+            for (step, (terms, bound)) in (face.step..).zip(&rows) {
+                // sign · (first − second) ≥ −bound
+                let [first, second] = face.pair.each_ref().map(|robot| {
+                    terms.iter().find(|(name, _)| name.starts_with(&at(robot, step))).map(|(_, x)| *x)
+                });
+                let sign = f64::from(face.sign);
+                assert_eq!((terms.len(), first, second), (2, Some(-sign), Some(sign)), "{}", path.display());
+                assert!(*bound < 0.0);
+            }
+            seen[1] += 1;
+        }
+        for entry in &document.map.loops {
+            for (terms, bound) in switched(&document, entry.literal) {
+                let [(there, x), (here, y)] = terms[..] else { panic!("{}: {terms:?}", path.display()) };
+                assert!(there.contains(&format!(".z[{}].", entry.loop_start)));
+                assert!(here.contains(&format!(".z[{}].", entry.length + 1)));
+                assert_eq!((x, y, bound), (-1.0, 1.0, 0.0));
+            }
+            seen[2] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 50), "{seen:?}");
+}
+
 /// Numbers rounded to what does not depend on the machine's last digits.
 fn rounded(text: &str) -> String {
     let mut out = String::new();
