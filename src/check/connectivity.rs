@@ -43,9 +43,6 @@ impl Checker<'_> {
             }
             ConnectivityKind::Redundancy(expr) => {
                 connectivity.redundancy = self.redundancy(expr)?;
-                if connectivity.redundancy > 0 {
-                    return Err(self.report(messages::unsupported("`redundancy`", item.span)));
-                }
             }
             ConnectivityKind::Every(expr) => {
                 self.settings.every = Some((self.evaluate(expr, &Scope::default())?, expr.span));
@@ -87,9 +84,6 @@ impl Checker<'_> {
     pub(super) fn resolve_every(&mut self) {
         let Some((every, span)) = self.settings.every.take() else { return };
         let Ok(steps) = self.every_in_steps(&every, span) else { return };
-        if steps > 1 {
-            self.report(messages::unsupported("`every`", span));
-        }
         if let Some(connectivity) = &mut self.settings.connectivity {
             connectivity.every = steps;
         }

@@ -31,40 +31,47 @@ pub struct StepLinks {
 }
 
 impl StepLinks {
-    /// The links of one step, with the requirement that each robot has a path of at most `hops`
-    /// links to some base.
-    ///
-    /// Level h of a robot says that some path has h links; it rests on a link to a robot of level
-    /// h − 1, so two robots can't vouch for each other.
-    pub fn new(circuit: &mut Circuit, robots: usize, bases: usize, hops: usize) -> StepLinks {
+    /// The links of one step, and for each robot 'it has a path of at most `hops` links to some base'.
+    pub fn new(circuit: &mut Circuit, robots: usize, bases: usize, hops: usize) -> (StepLinks, Vec<Bit>) {
         let before = circuit.variables();
         let pairs = (0..robots * robots.saturating_sub(1) / 2).map(|_| circuit.growing_and()).collect();
         let direct = (0..robots * bases).map(|_| circuit.growing_and()).collect();
         let mut links = StepLinks { robots, bases, pairs, direct, variables: 0 };
-        let mut levels: Vec<Vec<Bit>> = vec![links.first_level(circuit)];
-        for _ in 2..=hops.min(robots) {
-            let next = links.next_level(circuit, &levels[levels.len() - 1]);
+        let reached = links.reached(circuit, hops, &[]);
+        links.variables = circuit.variables() - before;
+        (links, reached)
+    }
+
+    /// For each robot that is not lost: 'it has a path of at most `hops` links to some base, over robots that
+    /// are not lost either'.
+    ///
+    /// Level h of a robot says that some path has h links; it rests on a link to a robot of level
+    /// h − 1, so two robots can't vouch for each other.
+    pub fn reached(&mut self, circuit: &mut Circuit, hops: usize, lost: &[RobotId]) -> Vec<Bit> {
+        let before = circuit.variables();
+        let left: Vec<usize> = (0..self.robots).filter(|r| !lost.contains(&RobotId::new(*r))).collect();
+        let mut levels: Vec<Vec<Bit>> = vec![self.first_level(circuit, &left)];
+        for _ in 2..=hops.min(left.len()) {
+            let next = self.next_level(circuit, &left, &levels[levels.len() - 1]);
             levels.push(next);
         }
-        for robot in 0..robots {
-            let reached = circuit.or(levels.iter().map(|level| level[robot]));
-            circuit.require(reached);
-        }
-        links.variables = circuit.variables() - before;
-        links
+        let reached = |at: usize| levels.iter().map(move |level| level[at]);
+        let all = (0..left.len()).map(|at| circuit.or(reached(at))).collect();
+        self.variables += circuit.variables() - before;
+        all
     }
 
-    fn first_level(&self, circuit: &mut Circuit) -> Vec<Bit> {
+    fn first_level(&self, circuit: &mut Circuit, left: &[usize]) -> Vec<Bit> {
         let row = |robot: usize| &self.direct[robot * self.bases..(robot + 1) * self.bases];
-        (0..self.robots).map(|robot| circuit.or(row(robot).iter().map(|&l| Bit::Lit(l)))).collect()
+        left.iter().map(|&robot| circuit.or(row(robot).iter().map(|&l| Bit::Lit(l)))).collect()
     }
 
-    fn next_level(&self, circuit: &mut Circuit, below: &[Bit]) -> Vec<Bit> {
+    fn next_level(&self, circuit: &mut Circuit, left: &[usize], below: &[Bit]) -> Vec<Bit> {
         let level = |robot: usize| -> Vec<(Bit, Bit)> {
-            let others = (0..self.robots).filter(|&other| other != robot);
-            others.map(|other| (Bit::Lit(self.pair(robot, other)), below[other])).collect()
+            let others = left.iter().zip(below).filter(|(other, _)| **other != robot);
+            others.map(|(&other, &below)| (Bit::Lit(self.pair(robot, other)), below)).collect()
         };
-        (0..self.robots).map(|robot| circuit.some_pair(&level(robot))).collect()
+        left.iter().map(|&robot| circuit.some_pair(&level(robot))).collect()
     }
 
     fn pair(&self, a: usize, b: usize) -> Lit {

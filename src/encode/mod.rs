@@ -6,6 +6,7 @@
 
 mod circuit;
 mod compare;
+mod connectivity;
 mod convex;
 mod justify;
 mod leaf;
@@ -16,6 +17,7 @@ mod temporal;
 mod whole;
 
 pub use circuit::Bit;
+pub use connectivity::{is_asked, losses};
 pub use convex::{Block, Convex, Relation, Row, Variable};
 pub use leaf::{Anywhere, Face, Leaf, Reach};
 pub use links::Link;
@@ -92,6 +94,8 @@ pub struct Encoder<'a> {
     half_spaces: HalfSpaces,
     temporal: Temporal,
     links: Vec<StepLinks>,
+    /// By step: 'every robot reaches a base', where that is asked of some loops only.
+    connected: Vec<Option<Lit>>,
     /// With the paper's encoding: the cells.
     cells: Option<CellVariables<'a>>,
     /// By position: it is the last one.
@@ -127,6 +131,7 @@ impl<'a> Encoder<'a> {
             temporal: Temporal::new(problem),
             circuit,
             links: Vec::new(),
+            connected: Vec::new(),
             cells: abstraction.partition.as_ref().map(CellVariables::new),
             lasts: Vec::new(),
             loops: Vec::new(),
@@ -157,6 +162,7 @@ impl<'a> Encoder<'a> {
         }
         self.extend_cells(length + 1);
         self.close_cells(length, &loops);
+        self.connect_loops(length, &loops);
         let mut some: Vec<Lit> = vec![!last];
         some.extend(&loops);
         self.circuit.clause(&some);
@@ -168,11 +174,8 @@ impl<'a> Encoder<'a> {
     fn add_position(&mut self) {
         let step = self.lasts.len();
         let last = self.circuit.define(Gate::Choice);
-        if let Some(connectivity) = &self.problem.connectivity {
-            let hops = connectivity.hops.map_or(usize::MAX, |h| h as usize);
-            let (robots, bases) = (self.problem.robots.len(), self.problem.bases.len());
-            let new = if self.cells.is_some() { StepLinks::paper } else { StepLinks::new };
-            self.links.push(new(&mut self.circuit, robots, bases, hops));
+        if self.problem.connectivity.is_some() {
+            self.add_links(step);
             self.extend_cells(step);
             self.extend_sight(step);
         }

@@ -63,25 +63,31 @@ impl Paths {
 
 impl StepLinks {
     /// As [`new`](StepLinks::new), with the paper's variables. `variables` counts these alone.
-    pub(super) fn paper(circuit: &mut Circuit, robots: usize, bases: usize, hops: usize) -> StepLinks {
+    pub(super) fn paper(
+        circuit: &mut Circuit,
+        robots: usize,
+        bases: usize,
+        hops: usize,
+    ) -> (StepLinks, Vec<Bit>) {
         let nodes = robots + bases;
         let paths = Paths::new(circuit, robots, bases);
         let longest = paths.levels.len();
+        let mut reached = Vec::new();
         for robot in 0..robots {
             let counts = 1..=hops.min(longest);
             let ways = counts.flat_map(|h| (robots..nodes).map(move |base| (base, h)));
-            let reached = circuit.or(ways.map(|(base, h)| Bit::Lit(paths.path(robot, base, h))));
-            circuit.require(reached);
+            reached.push(circuit.or(ways.map(|(base, h)| Bit::Lit(paths.path(robot, base, h)))));
         }
         let robot_pairs = (0..robots).flat_map(|i| (i + 1..robots).map(move |j| (i, j)));
         let base_pairs = (0..robots).flat_map(|i| (robots..nodes).map(move |b| (i, b)));
-        StepLinks {
+        let links = StepLinks {
             robots,
             bases,
             pairs: robot_pairs.map(|(i, j)| paths.path(i, j, 1)).collect(),
             direct: base_pairs.map(|(i, b)| paths.path(i, b, 1)).collect(),
             variables: paths.levels.iter().map(Vec::len).sum(),
-        }
+        };
+        (links, reached)
     }
 }
 
@@ -161,7 +167,8 @@ mod tests {
             for hops in [1, 2, usize::MAX] {
                 let mut circuit = Circuit::default();
                 let bases = graph.nodes - graph.robots;
-                let links = StepLinks::paper(&mut circuit, graph.robots, bases, hops);
+                let (links, reached) = StepLinks::paper(&mut circuit, graph.robots, bases, hops);
+                reached.into_iter().for_each(|bit| circuit.require(bit));
                 let forced: Vec<Lit> = links
                     .iter()
                     .map(|(link, lit)| {

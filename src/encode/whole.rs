@@ -12,7 +12,7 @@ use crate::ir::{Problem, RobotId};
 use crate::tube::Tubes;
 
 use super::convex::{Builder, Convex};
-use super::{Anywhere, Encoder, End, Leaf, Link, link_ends};
+use super::{Anywhere, Encoder, End, Leaf, Link, connectivity, link_ends};
 
 /// The most clauses that a whole instance may be expected to have: its file stays below what is read.
 const LARGEST: u64 = 5_000_000;
@@ -136,9 +136,16 @@ fn expected_clauses(problem: &Problem, abstraction: &Abstraction, (from, to): (u
         Some(cells) => cells * (10 * robots + links),
         None => abstraction.solids.iter().map(clear).sum(),
     };
+    let lost = problem.connectivity.as_ref().map_or(0, |asked| sets(robots, asked.redundancy.into()));
+    let step = step.saturating_add(lost.saturating_mul(robots.pow(3)));
     let lengths = (from..=to).fold(0u64, |sum, length| sum.saturating_add(length as u64 + 1));
     let formulas = problem.formulas.nodes().len() as u64 + 1;
     (to as u64 + 1).saturating_mul(step).saturating_add(lengths.saturating_mul(formulas))
+}
+
+/// How many sets of so many members there are; 0 for none.
+fn sets(members: u64, size: u64) -> u64 {
+    (0..size).fold(u64::from(size > 0), |sets, i| sets.saturating_mul(members.saturating_sub(i)) / (i + 1))
 }
 
 impl Encoder<'_> {
@@ -150,6 +157,10 @@ impl Encoder<'_> {
                 self.abstraction.solids.ids().for_each(|solid| self.demand_clear(step, solid));
             }
             self.demand_all_apart(step);
+            if let Some(asked) = &self.problem.connectivity {
+                let losses = connectivity::losses(asked, self.problem.robots.len());
+                losses.for_each(|lost| self.demand_reach(step, &lost));
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! What trajectories violate of all that the Boolean part has left out so far.
 
 use crate::abstraction::{Abstraction, Body, Owner, SolidId};
-use crate::encode::Link;
+use crate::encode::{Link, is_asked, losses};
 use crate::entity::{EntityId, Table};
 use crate::ir::{Problem, RobotId};
 
@@ -16,6 +16,8 @@ pub enum Violation {
     Link(Link, usize, SolidId),
     /// Two robots are not apart during a step; the coordinates halfway between them at both ends.
     Apart(RobotId, RobotId, usize, [Vec<f64>; 2]),
+    /// Some robot reaches no base at a step when others are lost.
+    CutOff(usize, Vec<RobotId>),
 }
 
 /// The geometry of a candidate's trajectories.
@@ -43,13 +45,27 @@ impl<'a> Scene<'a> {
         Scene { problem, abstraction, positions: trajectories.iter().map(path).collect(), length }
     }
 
-    /// Everything that is violated, in a fixed order.
-    pub fn violations(&self, links: &[Vec<Link>]) -> Vec<Violation> {
+    /// Everything that is violated with these links in use and the loop back to `loop_start`, in a
+    /// fixed order.
+    pub fn violations(&self, links: &[Vec<Link>], loop_start: usize) -> Vec<Violation> {
         let mut found = Vec::new();
         self.moves(&mut found);
         self.links(links, &mut found);
         self.pairs(&mut found);
+        self.losses(links, loop_start, &mut found);
         found
+    }
+
+    fn losses(&self, links: &[Vec<Link>], loop_start: usize, found: &mut Vec<Violation>) {
+        let Some(asked) = &self.problem.connectivity else { return };
+        let robots = self.problem.robots.len();
+        for (step, links) in links.iter().enumerate() {
+            if is_asked(asked, step, self.length, loop_start) {
+                let cut_off = |lost: &Vec<RobotId>| !all_reach(robots, links, lost, asked.hops);
+                let sets = losses(asked, robots).filter(cut_off);
+                found.extend(sets.map(|lost| Violation::CutOff(step, lost)));
+            }
+        }
     }
 
     fn body(&self, robot: RobotId, step: usize) -> Body<'_> {
@@ -125,4 +141,25 @@ impl<'a> Scene<'a> {
         let middle = |axis| 0.5 * (self.coordinate(first, step, axis) + self.coordinate(second, step, axis));
         (0..self.problem.dimension).map(middle).collect()
     }
+}
+
+/// Whether every robot that is not lost reaches a base by at most `hops` links over such robots.
+fn all_reach(robots: usize, links: &[Link], lost: &[RobotId], hops: Option<u32>) -> bool {
+    let left = |robot: RobotId| !lost.contains(&robot);
+    let mut reached = vec![false; robots];
+    let steps = hops.map_or(robots, |h| robots.min(h as usize));
+    for step in 0..steps {
+        let before = reached.clone();
+        for &link in links {
+            match link {
+                Link::Base(robot, _) => reached[robot.index()] |= step == 0,
+                Link::Robots(a, b) if left(a) && left(b) => {
+                    reached[a.index()] |= before[b.index()];
+                    reached[b.index()] |= before[a.index()];
+                }
+                Link::Robots(..) => {}
+            }
+        }
+    }
+    (0..robots).all(|robot| reached[robot] || !left(RobotId::new(robot)))
 }

@@ -31,6 +31,8 @@ pub struct Demands {
     /// deferred disjuncts were given their meaning.
     clear: BTreeMap<(What, SolidId), Vec<BTreeSet<usize>>>,
     apart: BTreeSet<(RobotId, RobotId, usize)>,
+    /// By who is lost: the steps at which the others are to reach a base.
+    reach: BTreeMap<Vec<RobotId>, BTreeSet<usize>>,
 }
 
 impl Demands {
@@ -46,6 +48,7 @@ impl Demands {
                 Violation::Link(link, step, solid) => {
                     self.demand(What::Link(link), step, solid, length, encoder)
                 }
+                Violation::CutOff(step, lost) => self.demand_reach(step, lost, length, encoder),
                 Violation::Apart(first, second, step, cuts) => {
                     encoder.demand_apart(first, second, step, cuts);
                     self.apart.insert((first, second, step)) || encoder.sharpen_apart(first, second, step)
@@ -76,8 +79,32 @@ impl Demands {
         true
     }
 
+    fn demand_reach(
+        &mut self,
+        step: usize,
+        lost: Vec<RobotId>,
+        length: usize,
+        encoder: &mut Encoder<'_>,
+    ) -> bool {
+        let steps = self.reach.entry(lost.clone()).or_default();
+        if !steps.insert(step) {
+            return false;
+        }
+        encoder.demand_reach(step, &lost);
+        if steps.len() == RECURRING {
+            let others = (0..=length).filter(|step| steps.insert(*step));
+            others.for_each(|step| encoder.demand_reach(step, &lost));
+        }
+        true
+    }
+
     /// Makes the recurring demands for the last step of a new length.
     pub fn extend(&mut self, length: usize, encoder: &mut Encoder<'_>) {
+        for (lost, steps) in self.reach.iter_mut().filter(|(_, steps)| steps.len() >= RECURRING) {
+            if steps.insert(length) {
+                encoder.demand_reach(length, lost);
+            }
+        }
         for ((what, solid), levels) in &mut self.clear {
             raise_all(*what, *solid, levels, length..=length, encoder);
         }

@@ -218,12 +218,13 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         self.search.statistics.time_convex += self.search.now() - start;
         let trajectories = result?;
         let start = self.search.now();
-        let violations = self.violations(&trajectories, &justification);
+        let violations = self.violations(&trajectories, &justification, back);
         self.search.statistics.time_geometry += self.search.now() - start;
         if violations.is_empty() {
             return Some(self.found(&trajectories, back, justification));
         }
-        let not_clear = violations.iter().filter(|v| !matches!(v, Violation::Apart(..))).count();
+        let not_clear =
+            violations.iter().filter(|v| matches!(v, Violation::Move(..) | Violation::Link(..))).count();
         self.search.statistics.not_clear += not_clear as u64;
         let start = self.search.now();
         self.demand(violations, &justification, back);
@@ -231,9 +232,14 @@ impl<'s, 'p: 's> Attempt<'s, 'p, '_> {
         None
     }
 
-    fn violations(&self, z: &Table<RobotId, Trajectory>, justification: &Justification) -> Vec<Violation> {
+    fn violations(
+        &self,
+        z: &Table<RobotId, Trajectory>,
+        justification: &Justification,
+        back: usize,
+    ) -> Vec<Violation> {
         let scene = Scene::new(self.search.problem, self.search.abstraction, z, self.length);
-        scene.violations(&justification.links)
+        scene.violations(&justification.links, back)
     }
 
     /// Adds the lemma of a refused cluster, and the same at other times and for other robots.
