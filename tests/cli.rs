@@ -516,6 +516,33 @@ fn verbose_lists_the_phases() {
     assert_eq!(String::from_utf8_lossy(&solved(REACH, &[]).2.stderr), "");
 }
 
+#[test]
+fn verbose_says_which_rejection_was_chosen_and_why() {
+    let mission = |bounds: &str| {
+        format!(
+            "dosm 1\nworkspace box (0, 0) .. (20, 20)\nbase b at (1, 1)\ndynamics Rover {{ step 0.5 s \
+             integrator 2 {bounds} disturbance px, py in [-0.1, 0.1] }}\nrobot r: Rover at (5, 5)\n"
+        )
+    };
+    let dir = temporary();
+    let said = |bounds: &str| {
+        let file = dir.path().join("mission.dosm");
+        std::fs::write(&file, mission(bounds)).expect("it can be written");
+        let output = run(&["check", path(&file), "-v"]);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stderr).expect("UTF-8")
+    };
+    let strong = said("bound ax, ay in [-4, 4]");
+    assert!(strong.starts_with("rejection  Rover  0.3  chosen: the smallest that is tried"), "{strong}");
+    let asked = said("bound ax, ay in [-4, 4] rejection 0.45");
+    assert_eq!(asked, "rejection  Rover  0.45  as the mission says\n");
+    let weak = said("bound ax, ay in [-0.36, 0.36] disturbance vx, vy in [-0.1, 0.1]");
+    assert!(weak.starts_with("rejection  Rover  0.9  chosen: 0.7 is not enough"), "{weak}");
+    let between = said("bound ax, ay in [-1, 1]");
+    assert!(between.contains("chosen: with 0.5 the tube would be 1."), "{between}");
+    assert_eq!(String::from_utf8_lossy(&run(&["check", REACH]).stderr), "");
+}
+
 /// `script` gives the command a terminal.
 #[cfg(target_os = "linux")]
 #[test]

@@ -42,6 +42,11 @@ impl Checker<'_> {
                     self.fill(&mut bounded, &signals, "state or input", names, interval, item.span)
                 }
                 DynamicsKind::Disturbance { names, interval } => {
+                    let input = |name: &&Name| inputs.iter().any(|signal| signal.name == name.text);
+                    if let Some(name) = names.iter().find(input) {
+                        failed = Some(self.report(messages::disturbed_input(name)));
+                        continue;
+                    }
                     self.fill(&mut disturbance, &signals[..states.len()], "state", names, interval, item.span)
                 }
                 _ => continue,

@@ -287,6 +287,12 @@ impl Checker<'_> {
         if FUNCTIONS.contains(&name.text.as_str()) {
             return Err(self.report(messages::function_without_arguments(name)));
         }
+        if !scope.coordinates.is_empty() && indices.is_empty() && self.names.get(&name.text).is_none() {
+            let coordinates: Vec<&str> = scope.coordinates.iter().map(|(n, _)| n.as_str()).collect();
+            let near = self.names.nearest(&name.text, &[Kind::Param, Kind::Let]);
+            let message = messages::unknown_coordinate(name, &coordinates, near);
+            return Err(self.report(message));
+        }
         let item = self.resolve(name, &[Kind::Param, Kind::Let], "constant", scope)?;
         match (&self.entries[item], indices) {
             (Entry::Constant(Err(reported)), _) => Err(*reported),

@@ -128,9 +128,7 @@ impl Checker<'_> {
 
     /// What a robot variable stands for, one after the other; one unknown where the set is wrong.
     fn robot_members(&mut self, variable: &Name, set: &[Reference], scope: &Scope) -> Vec<Binding> {
-        let robots = self
-            .check_variable(variable, scope)
-            .and_then(|()| self.set(set, scope, &[Kind::Robot, Kind::Team]));
+        let robots = self.check_variable(variable, scope).and_then(|()| self.set(set, scope));
         match robots {
             Ok(robots) => robots.into_iter().map(Binding::Robot).collect(),
             Err(reported) => vec![Binding::Unknown(reported)],

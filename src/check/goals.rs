@@ -20,8 +20,9 @@ impl Checker<'_> {
                 self.goals.push(typed::Goal { name: name.text.clone(), formula: root, span: item.span });
             }
         }
-        // Robots that could not be read are missing from the sets that goals count.
-        if file.broken.is_empty() {
+        // Robots that could not be read are missing from the sets that goals count, and where there
+        // are none at all, that has been said.
+        if file.broken.is_empty() && !self.robots.is_empty() {
             self.look_for_vacuous_goals();
         }
     }

@@ -3,6 +3,7 @@
 use crate::check::expression::Scope;
 use crate::check::families::Family;
 use crate::check::names::Kind;
+use crate::check::order::dependency_order;
 use crate::check::{Checker, Entry, doc_text, messages, typed};
 use crate::diag::Reported;
 use crate::entity::EntityId;
@@ -16,15 +17,21 @@ impl Checker<'_> {
     pub(super) fn declare_robots(&mut self) {
         let file = self.file;
         let mut unread = file.has_broken_keyword("robot");
+        let mut empty = Vec::new();
         for (index, item) in file.items.iter().enumerate() {
             if let ItemKind::Robot { name, dynamics, at } = &item.kind {
                 let family = self.robot(name, dynamics, at, item);
                 unread |= family.is_err();
+                empty.extend(family.as_ref().is_ok_and(|f| f.len == 0).then_some(&name.name));
                 self.entries[index] = Entry::Family(family);
             }
         }
         if self.robots.is_empty() && !unread {
-            self.report(messages::missing_robot(file.span));
+            let message = match &empty[..] {
+                [] => messages::missing_robot(file.span),
+                names => messages::empty_families(names),
+            };
+            self.report(message);
         }
     }
 
@@ -116,29 +123,44 @@ impl Checker<'_> {
         failed.map_or(Ok(values), Err)
     }
 
-    /// All teams.
+    /// All teams, those that another one names before it.
     pub(super) fn declare_teams(&mut self) {
         let file = self.file;
-        for (index, item) in file.items.iter().enumerate() {
-            if let ItemKind::Team { members, .. } = &item.kind {
-                let team = self.set(members, &Scope::default(), &[Kind::Robot]);
-                self.entries[index] = Entry::Team(team);
+        let mut teams: Vec<(usize, &Name, &[Reference])> = Vec::new();
+        for (item, declaration) in file.items.iter().enumerate() {
+            if let ItemKind::Team { name, members } = &declaration.kind {
+                teams.push((item, name, members));
+            }
+        }
+        let named = |reference: &Reference| {
+            let symbol = self.names.get(&reference.name.text)?;
+            teams.binary_search_by_key(&symbol.item, |team| team.0).ok()
+        };
+        let edges: Vec<Vec<usize>> =
+            teams.iter().map(|(_, _, members)| members.iter().filter_map(named).collect()).collect();
+        let (order, circles) = dependency_order(&edges);
+        for circle in circles {
+            let names: Vec<&Name> = circle.iter().map(|&i| teams[i].1).collect();
+            let reported = self.report(messages::circle("team", &names));
+            for i in circle {
+                self.entries[teams[i].0] = Entry::Team(Err(reported));
+            }
+        }
+        for i in order {
+            let (item, _, members) = teams[i];
+            if !matches!(self.entries[item], Entry::Team(Err(_))) {
+                self.entries[item] = Entry::Team(self.set(members, &Scope::default()));
             }
         }
     }
 
     /// The robots of a set, each once, in the order in which they are first named.
-    pub(super) fn set(
-        &mut self,
-        members: &[Reference],
-        scope: &Scope,
-        kinds: &[Kind],
-    ) -> Result<Vec<RobotId>, Reported> {
+    pub(super) fn set(&mut self, members: &[Reference], scope: &Scope) -> Result<Vec<RobotId>, Reported> {
         let mut seen = vec![false; self.robots.len()];
         let mut robots = Vec::new();
         let mut failed = None;
         for reference in members {
-            match self.set_member(reference, scope, kinds) {
+            match self.set_member(reference, scope) {
                 Ok(ids) => {
                     let new = ids.into_iter().filter(|id| !std::mem::replace(&mut seen[id.index()], true));
                     robots.extend(new);
@@ -149,12 +171,7 @@ impl Checker<'_> {
         failed.map_or(Ok(robots), Err)
     }
 
-    fn set_member(
-        &mut self,
-        reference: &Reference,
-        scope: &Scope,
-        kinds: &[Kind],
-    ) -> Result<Vec<RobotId>, Reported> {
+    fn set_member(&mut self, reference: &Reference, scope: &Scope) -> Result<Vec<RobotId>, Reported> {
         let plain = reference.indices.is_empty();
         if plain && reference.name.text == "all" {
             return Ok((0..self.robots.len()).map(RobotId::new).collect());
@@ -162,7 +179,7 @@ impl Checker<'_> {
         if plain && let Some(crate::check::Binding::Robot(id)) = scope.binding(&reference.name.text) {
             return Ok(vec![id]);
         }
-        let item = self.resolve(&reference.name, kinds, "robot", scope)?;
+        let item = self.resolve(&reference.name, &[Kind::Robot, Kind::Team], "robot", scope)?;
         let family = match &self.entries[item] {
             Entry::Team(Ok(_)) if !plain => {
                 return Err(self.report(messages::wrong_member_indices(reference, 0)));

@@ -90,7 +90,7 @@ impl Checker<'_> {
         scope: &Scope,
     ) -> Result<Vec<Atom>, Reported> {
         self.check_variable(variable, scope)?;
-        let robots = self.set(set, scope, &[Kind::Robot, Kind::Team]);
+        let robots = self.set(set, scope);
         if member.name.text != variable.text || !member.indices.is_empty() {
             return Err(self.report(messages::count_of_another(variable, member)));
         }

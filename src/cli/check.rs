@@ -1,5 +1,6 @@
 //! `dosmc check`: diagnostics, and nothing else.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -7,9 +8,10 @@ use serde::Serialize;
 
 use super::output::{Output, counted, giving_up};
 use super::overseer::Overseer;
-use super::{Status, mission};
+use super::stats::{JsonRejection, rejection_of};
+use super::{Status, mission, phases};
 use crate::diag::json::{JsonDiagnostic, to_json};
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Diagnostic, Severity, printable};
 use crate::driver::Overrides;
 use crate::source::SourceFile;
 
@@ -46,6 +48,8 @@ struct Looked {
     source: SourceFile,
     diagnostics: Vec<Diagnostic>,
     status: Status,
+    /// By model: its share of the inputs for rejection; of missions without errors.
+    rejection: BTreeMap<String, JsonRejection>,
 }
 
 /// Checks all missions; the worst status is the command's.
@@ -64,6 +68,9 @@ pub fn check(
     overseer.close();
     for one in &all {
         output.diagnostics(&one.source, &one.diagnostics);
+        if output.verbose > 0 && one.status == Status::Done {
+            output.note(&tubes(one, all.len() > 1));
+        }
     }
     let said = output.say(&summary(&all)).and_then(|()| output.json(&json(&all)));
     // An unreadable file weighs more than a wrong one: the command could not do its work.
@@ -75,14 +82,21 @@ fn look(path: &Path, overrides: &Overrides) -> Looked {
     match mission::open(path) {
         Err(unopened) => {
             let mission::Unopened { source, problem, status } = *unopened;
-            Looked { source, diagnostics: vec![problem], status }
+            Looked { source, diagnostics: vec![problem], status, rejection: BTreeMap::new() }
         }
         Ok(source) => {
             let (loaded, diagnostics) = mission::load(&source, overrides);
             let status = if loaded.is_some() { Status::Done } else { Status::Mission };
-            Looked { source, diagnostics, status }
+            let rejection = loaded.as_ref().map(rejection_of).unwrap_or_default();
+            Looked { source, diagnostics, status, rejection }
         }
     }
+}
+
+/// How much of the inputs each model's feedback has, and why.
+fn tubes(one: &Looked, named: bool) -> String {
+    let name = named.then(|| format!("{}:", printable(&one.source.name)));
+    name.into_iter().chain(phases::rejection(&one.rejection)).collect::<Vec<_>>().join("\n")
 }
 
 fn count(all: &[Looked], severity: Severity) -> usize {

@@ -1,10 +1,11 @@
 //! The table of `-v`: what took how long, and what came out of it.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::Duration;
 
 use super::output::counted;
-use super::stats::Run;
+use super::stats::{JsonRejection, Run};
 use crate::diag::printable;
 use crate::driver::Encoding;
 use crate::solve::Statistics;
@@ -32,7 +33,7 @@ pub fn of_search(run: &Run, search: &Statistics, total: Duration, peak_mib: f64)
     ];
     let steps = if search.length > 0 { search.length + 1 } else { 0 };
     let paper = run.papers_connectivity * steps;
-    let mut notes = rejection(run);
+    let mut notes = rejection(&run.rejection);
     if paper > 0 {
         let own = search.bool_vars_connectivity;
         notes.push(format!("links      {} (the paper's encoding: {paper})", counted(own, "variable")));
@@ -43,7 +44,7 @@ pub fn of_search(run: &Run, search: &Statistics, total: Duration, peak_mib: f64)
 
 /// The table of a run that writes files without a search.
 pub fn of_files(run: &Run, total: Duration, peak_mib: f64) -> String {
-    table(vec![read(run), check(run), tubes(run), files(run)], &rejection(run), total, peak_mib)
+    table(vec![read(run), check(run), tubes(run), files(run)], &rejection(&run.rejection), total, peak_mib)
 }
 
 /// The table of a run that checks a plan.
@@ -128,12 +129,13 @@ fn convex(search: &Statistics) -> String {
 }
 
 /// How much of the inputs each model's feedback has, and why.
-fn rejection(run: &Run) -> Vec<String> {
-    let line = |(i, (name, chosen)): (usize, (&String, &super::stats::JsonRejection))| {
+pub fn rejection(models: &BTreeMap<String, JsonRejection>) -> Vec<String> {
+    let width = models.keys().map(|name| printable(name).chars().count()).max().unwrap_or(0);
+    let line = |(i, (name, chosen)): (usize, (&String, &JsonRejection))| {
         let head = if i == 0 { "rejection" } else { "" };
-        format!("{head:<11}{} {}: {}", printable(name), chosen.beta, chosen.why)
+        format!("{head:<11}{:<width$}  {:<3}  {}", printable(name), chosen.beta, chosen.why)
     };
-    run.rejection.iter().enumerate().map(line).collect()
+    models.iter().enumerate().map(line).collect()
 }
 
 /// How often each robot's programs have refused what a candidate asks, the most often first.
@@ -153,9 +155,6 @@ const MOST_ROBOTS: usize = 6;
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
-    use super::super::stats::JsonRejection;
     use super::*;
 
     fn run() -> Run {
@@ -173,7 +172,7 @@ mod tests {
             robots: (1..=10).map(|i| format!("fleet[{i}]")).collect(),
             rejection: BTreeMap::from([
                 ("Cart".into(), rejection("as the mission says")),
-                ("Rover".into(), rejection("the least that is tried")),
+                ("Rover".into(), rejection("chosen: for a reason")),
             ]),
             papers_connectivity: 300,
             encoding: Encoding::HalfSpaces,

@@ -43,6 +43,14 @@ pub struct Run {
     pub cells: usize,
 }
 
+/// Each model's share of the inputs for rejection, and why, by the model's name.
+pub fn rejection_of(mission: &Mission) -> BTreeMap<String, JsonRejection> {
+    let rejection =
+        |tube: &crate::tube::Tube| JsonRejection { beta: tube.beta, why: tube.choice.to_string() };
+    let models = mission.problem.models.values().zip(mission.tubes.values());
+    models.map(|(model, tube)| (model.name.clone(), rejection(tube))).collect()
+}
+
 impl Run {
     /// Notes a text that was read.
     pub fn read(&mut self, source: &SourceFile, time: Duration) {
@@ -65,10 +73,7 @@ impl Run {
 
     /// Notes a mission's tubes.
     pub fn has_tubes(&mut self, mission: &Mission) {
-        let rejection =
-            |tube: &crate::tube::Tube| JsonRejection { beta: tube.beta, why: tube.choice.to_string() };
-        let models = mission.problem.models.values().zip(mission.tubes.values());
-        self.rejection = models.map(|(model, tube)| (model.name.clone(), rejection(tube))).collect();
+        self.rejection = rejection_of(mission);
     }
 
     /// Notes files that were written.

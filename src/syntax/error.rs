@@ -302,6 +302,16 @@ pub(super) fn chained_comparison(span: Span) -> Diagnostic {
     .with_help("write two comparisons: `0 <= x; x <= 5` among half-spaces, `… and …` in a formula")
 }
 
+pub(super) fn counted_formula(span: Span, help: &str) -> Diagnostic {
+    Diagnostic::error(
+        "dosm::syntax::expected",
+        "a count is over `ROBOT in REGION` alone",
+        span,
+        "not a robot",
+    )
+    .with_help(help)
+}
+
 pub(super) fn sum_bracket(span: Span) -> Diagnostic {
     Diagnostic::error(
         "dosm::syntax::sum_bracket",

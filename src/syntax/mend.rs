@@ -35,6 +35,23 @@ const WORDS_OF: [(Rule, &[&str]); 7] = [
     (Rule::connective, &["and", "or", "until", "release", "weak", "strong"]),
 ];
 
+/// What to write where a count is asked to look at more than one region.
+const COUNT_OF_FORMULA: &str = "a count says how many are in one region: `count(r in all: r in A)`; how many \
+                                are outside is the number of robots less that";
+
+/// Words of other languages for temporal operators, in lower case, with ours.
+const OPERATORS: [(&str, &str); 9] = [
+    ("globally", "always"),
+    ("henceforth", "always"),
+    ("box", "always"),
+    ("finally", "eventually"),
+    ("diamond", "eventually"),
+    ("sometime", "eventually"),
+    ("sometimes", "eventually"),
+    ("x", "next"),
+    ("nexttime", "next"),
+];
+
 /// A place where the parser stopped.
 pub(super) struct Case<'a> {
     /// What pest says.
@@ -51,7 +68,9 @@ pub(super) struct Case<'a> {
 
 /// The diagnostic of a mistake that is known as such.
 pub(super) fn known(case: &Case) -> Option<Diagnostic> {
-    const MISTAKES: [fn(&Case) -> Option<Diagnostic>; 8] = [
+    const MISTAKES: [fn(&Case) -> Option<Diagnostic>; 10] = [
+        counted_sum,
+        counted_formula,
         reserved_word,
         double_equals,
         number_form,
@@ -82,6 +101,14 @@ pub(super) fn help(case: &Case) -> Option<String> {
         "[" if case.before().ends_with('[') => "rows are separated by `;`: `[1, 0; 0, 1]`",
         "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
         "," if case.failure.expects(Rule::kw_radius) => "no comma stands before `radius`",
+        "<" if case.last_is("hops") || case.last_is("range") => "the bound is included: `<=`",
+        "[" if case.names_goal() => "goals have no families: write `goal NAME: forall i in 1..3: …`",
+        "" if case.declares("horizon") && case.failure.expects(Rule::dots) => {
+            "a horizon is a range of lengths, such as `1..40`"
+        }
+        "and" | "&&" | "or" | "||" if case.inside_count() => COUNT_OF_FORMULA,
+        "implies" => "the operator is `->`",
+        "iff" => "the operator is `<->`",
         "not" if case.failure.expects(Rule::kw_in) => "`not` stands before the robot: `not R1 in A`",
         "=" | "!=" | "<" | "<=" | ">" | ">=" if case.follows_atom() => {
             "a compared atom needs brackets: `(R1 in A) = 1`"
@@ -125,8 +152,49 @@ impl Case<'_> {
         self.failure.expects(Rule::connective) && words.nth(1) == Some("in")
     }
 
+    /// Whether the last word before the place is this one.
+    fn last_is(&self, word: &str) -> bool {
+        last_word(self.before()) == word
+    }
+
+    /// Whether the text seen begins with this word.
+    fn declares(&self, word: &str) -> bool {
+        first_word(self.text) == word
+    }
+
+    /// Whether the place is behind the name of a goal, where `:` should be.
+    fn names_goal(&self) -> bool {
+        self.declares("goal") && self.failure.expects(Rule::colon) && !self.before().contains(':')
+    }
+
+    /// Whether the place is behind the colon of a `count(…: …`.
+    fn inside_count(&self) -> bool {
+        let Some((head, body)) = self.before().rsplit_once(':') else { return false };
+        let open = head.rsplit_once('(').is_some_and(|(before, _)| last_word(before.trim_end()) == "count");
+        open && !body.contains(')')
+    }
+
+    /// A mend for an operator of another language, or in capitals, that was taken for a name.
+    fn help_for_operator(&self) -> Option<String> {
+        if !self.failure.expects(Rule::connective) {
+            return None;
+        }
+        let word = last_word(self.before());
+        let lower = word.to_ascii_lowercase();
+        let own = OPERATORS.iter().find(|(other, _)| *other == lower).map(|(_, own)| *own);
+        let capital = lower != word && is_reserved(&lower) && lower.len() > 1;
+        own.or(capital.then_some(lower.as_str())).map(|own| format!("did you mean `{own}` for `{word}`?"))
+    }
+
     /// A mend for a word that is no word of the language.
     fn help_for_word(&self) -> Option<String> {
+        if let Some(help) = self.help_for_operator() {
+            return Some(help);
+        }
+        let lower = self.found.to_ascii_lowercase();
+        if lower != self.found && lower.len() > 1 && is_reserved(&lower) {
+            return Some(format!("did you mean `{lower}`?"));
+        }
         let near = self.nearest_keyword();
         let number_before = self.before().ends_with(|c: char| c.is_ascii_digit());
         // `5 feet` is not meant to begin with `let`.
@@ -155,6 +223,18 @@ impl Case<'_> {
         }
         nearest(self.found, keywords.iter().map(String::as_str)).map(str::to_owned)
     }
+}
+
+/// `2 * (count(r in all: r in A) + 1)`
+fn counted_sum(case: &Case) -> Option<Diagnostic> {
+    let factor = case.before().strip_suffix('(').is_some_and(|rest| rest.trim_end().ends_with('*'));
+    (case.found == "count" && factor).then(|| error::sum_bracket(case.place_of_last(1)))
+}
+
+/// `count(r in all: not r in A)`
+fn counted_formula(case: &Case) -> Option<Diagnostic> {
+    let not = matches!(case.found, "not" | "!") && case.inside_count();
+    not.then(|| error::counted_formula(case.span, COUNT_OF_FORMULA))
 }
 
 fn reserved_word(case: &Case) -> Option<Diagnostic> {

@@ -57,11 +57,13 @@ impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Choice::Asked => write!(f, "as the mission says"),
-            Choice::Least => write!(f, "the least that is tried"),
-            Choice::Wider { share, factor } => {
-                write!(f, "with {share} the tube would be {factor:.2} times as wide as with 0.9")
+            Choice::Least => {
+                write!(f, "chosen: the smallest that is tried, and the tube is narrow enough with it")
             }
-            Choice::TooWeak { share } => write!(f, "{share} is not enough against the disturbance"),
+            Choice::Wider { share, factor } => {
+                write!(f, "chosen: with {share} the tube would be {factor:.2} times as wide as with 0.9")
+            }
+            Choice::TooWeak { share } => write!(f, "chosen: {share} is not enough against the disturbance"),
         }
     }
 }

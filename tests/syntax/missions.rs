@@ -59,7 +59,11 @@ fn each_broken_mission_has_the_error_of_its_name() {
         assert!(!diagnostics.is_empty(), "{name} has no error");
         for diagnostic in diagnostics.iter().filter(|d| name != "too_many_errors" || d.code.ends_with(&name))
         {
-            assert_eq!(diagnostic.code, format!("dosm::syntax::{name}"), "{diagnostic:#?}");
+            // `expected_horizon` is a second way to get `expected`.
+            let code = diagnostic.code.trim_start_matches("dosm::syntax::");
+            let variant =
+                name.strip_prefix(code).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
+            assert!(variant, "{name}: {diagnostic:#?}");
             report.push_str(&shown(&String::from_utf8_lossy(&bytes), diagnostic));
         }
     }

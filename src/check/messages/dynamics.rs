@@ -77,6 +77,12 @@ pub(in crate::check) fn unknown_signal<'s>(
     }
 }
 
+pub(in crate::check) fn disturbed_input(name: &Name) -> Diagnostic {
+    let message = format!("`{}` is an input; a disturbance is added to states", name.text);
+    Diagnostic::error("dosm::check::unknown_signal", message, name.span, "not a state")
+        .with_help("name the states that it moves, each step")
+}
+
 pub(in crate::check) fn incoherent_unit(span: Span, dimension: Dimension) -> Diagnostic {
     let message = "the unit of a state or an input is a coherent SI unit";
     Diagnostic::error("dosm::check::incoherent_unit", message, span, "another scale")

@@ -14,11 +14,13 @@ pub(in crate::check) fn wrong_window_dimension(span: Span, found: Dimension) -> 
 pub(in crate::check) fn mixed_window(span: Span) -> Diagnostic {
     let message = "a window is in steps or in times, not in both";
     Diagnostic::error("dosm::check::mixed_window", message, span, "a step and a time")
+        .with_help("give both ends a unit, as in `[1 s, 5 s]`, or neither; 0 needs none")
 }
 
 pub(in crate::check) fn negative_window(span: Span, number: &Rational) -> Diagnostic {
     let message = format!("a window looks ahead: {} lies in the past", super::shown(number));
     Diagnostic::error("dosm::check::bad_window", message, span, "below 0")
+        .with_help("windows begin at 0, the present, or later")
 }
 
 pub(in crate::check) fn reversed_window(span: Span, m: &Rational, n: &Rational) -> Diagnostic {

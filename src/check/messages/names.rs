@@ -2,6 +2,7 @@
 
 use crate::check::names::{Kind, Symbol};
 use crate::diag::Diagnostic;
+use crate::quantity::SYMBOLS;
 use crate::source::Span;
 use crate::syntax::ast::{Name, Reference};
 
@@ -21,13 +22,45 @@ pub(in crate::check) fn unknown_name(name: &Name, wanted: &str, near: Option<&st
         _ => "dosm::check::unknown_constant",
     };
     let message = format!("there is no {wanted} `{}`", name.text);
-    did_you_mean(Diagnostic::error(code, message, name.span, "not declared"), near)
+    let diagnostic = Diagnostic::error(code, message, name.span, "not declared");
+    if wanted == "constant" && SYMBOLS.contains(&name.text.as_str()) {
+        return diagnostic.with_help("a unit is written without blanks inside and follows a number: `2 m/s`");
+    }
+    did_you_mean(diagnostic, near)
+}
+
+/// A name in `where` that is neither a constant nor one of the things that inequalities are about.
+pub(in crate::check) fn unknown_coordinate(
+    name: &Name,
+    coordinates: &[&str],
+    near: Option<&str>,
+) -> Diagnostic {
+    let message = format!("there is no constant or coordinate `{}`", name.text);
+    let known: Vec<String> = coordinates.iter().map(|c| format!("`{c}`")).collect();
+    let diagnostic = Diagnostic::error("dosm::check::unknown_constant", message, name.span, "not declared");
+    if near.is_some() {
+        return did_you_mean(diagnostic, near);
+    }
+    diagnostic.with_help(format!("inequalities here are about {}", known.join(", ")))
 }
 
 pub(in crate::check) fn wrong_kind(name: &Name, wanted: &str, symbol: Symbol) -> Diagnostic {
     let message = format!("`{}` is {}, not a {wanted}", name.text, symbol.kind.a_noun());
-    Diagnostic::error("dosm::check::wrong_kind", message, name.span, format!("a {wanted} is needed here"))
-        .with_label(symbol.span, format!("declared as {}", symbol.kind.a_noun()))
+    let diagnostic = Diagnostic::error(
+        "dosm::check::wrong_kind",
+        message,
+        name.span,
+        format!("a {wanted} is needed here"),
+    )
+    .with_label(symbol.span, format!("declared as {}", symbol.kind.a_noun()));
+    match (wanted, symbol.kind) {
+        ("defined formula", Kind::Robot) => diagnostic.with_help(format!("say where: `{} in …`", name.text)),
+        ("defined formula", Kind::Region) => diagnostic.with_help(format!("say who: `… in {}`", name.text)),
+        ("defined formula", Kind::Goal) => {
+            diagnostic.with_help("formulas that others use are declared with `define`")
+        }
+        _ => diagnostic,
+    }
 }
 
 pub(in crate::check) fn bound_variable(name: &Name, wanted: &str) -> Diagnostic {
@@ -139,8 +172,12 @@ pub(in crate::check) fn no_such_member(
     let found = list(indices.iter().map(i64::to_string).collect());
     let wanted = list(ranges.iter().map(|(a, b)| format!("{a}..{b}")).collect());
     let message = format!("there is no member `{}[{found}]`", reference.name.text);
-    Diagnostic::error("dosm::check::no_such_member", message, reference.span, "not a member")
-        .with_help(format!("the indices run over {wanted}"))
+    let help = if ranges.iter().any(|(a, b)| a > b) {
+        format!("`{}` has no members at all: the indices run over {wanted}", reference.name.text)
+    } else {
+        format!("the indices run over {wanted}")
+    };
+    Diagnostic::error("dosm::check::no_such_member", message, reference.span, "not a member").with_help(help)
 }
 
 pub(in crate::check) fn team_as_robot(reference: &Reference, symbol: Symbol) -> Diagnostic {

@@ -18,7 +18,9 @@ pub(in crate::check) fn number_out_of_range(span: Span) -> Diagnostic {
 
 pub(in crate::check) fn not_whole(span: Span, number: &Rational) -> Diagnostic {
     let message = format!("a whole number is needed, not {}", super::shown(number));
-    Diagnostic::error("dosm::check::not_whole", message, span, "not a whole number")
+    let help =
+        format!("the nearest are {} and {}", super::shown(&number.floor()), super::shown(&number.ceil()));
+    Diagnostic::error("dosm::check::not_whole", message, span, "not a whole number").with_help(help)
 }
 
 pub(in crate::check) fn wrong_dimension(span: Span, found: Dimension, expected: Dimension) -> Diagnostic {
@@ -151,8 +153,14 @@ pub(in crate::check) fn index_out_of_table(
 ) -> Diagnostic {
     let name = &reference.name.text;
     let message = format!("`{name}` has no entry [{row}, {column}]: it has {height} × {width} entries");
+    let whole = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
+    let help = if row == whole(height) + 1 && height > 1 && (1..=whole(width)).contains(&column) {
+        format!("give `{name}` a row {row}, or let the index end at {height}")
+    } else {
+        "rows and columns count from 1".to_string()
+    };
     Diagnostic::error("dosm::check::index_out_of_table", message, reference.span, "out of the table")
-        .with_help("rows and columns count from 1")
+        .with_help(help)
 }
 
 fn set_error(code: &'static str, message: String) -> Diagnostic {

@@ -12,6 +12,17 @@ pub(in crate::check) fn missing_robot(span: Span) -> Diagnostic {
         .with_help("add one, such as `robot R1: Rover at (4.5, 1)`")
 }
 
+/// All robots are families, and none of them has a member.
+pub(in crate::check) fn empty_families(names: &[&Name]) -> Diagnostic {
+    let [first, others @ ..] = names else { return missing_robot(Span::default()) };
+    let message = "the mission has no robot: its families are empty";
+    let diagnostic = Diagnostic::error("dosm::check::missing_robot", message, first.span, "has no members");
+    others
+        .iter()
+        .fold(diagnostic, |d, name| d.with_label(name.span, "has no members either"))
+        .with_help("let an index run over at least one number")
+}
+
 pub(in crate::check) fn missing_base(span: Span) -> Diagnostic {
     let message = "the mission has no base that the robots could reach";
     Diagnostic::error("dosm::check::missing_base", message, span, "must reach a base at every step")

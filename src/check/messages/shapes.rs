@@ -159,6 +159,7 @@ pub(in crate::check) fn bad_half_spaces(
             let list: Vec<String> = direction.iter().map(super::shown).collect();
             let message = format!("the shape goes on for ever in the direction ({})", list.join(", "));
             Diagnostic::error("dosm::check::unbounded_shape", message, span, "not bounded")
+                .with_help("add an inequality that ends it there")
         }
         ShapeError::ZeroNormal { index } => no_coordinate(inequalities.get(*index).map_or(span, |i| i.span)),
         ShapeError::TooMany { most } => too_many_parts(span, inequalities.len(), *most),
