@@ -1,9 +1,10 @@
 //! Exact-enough tests of what a candidate leaves open, and the planes that separate.
 //!
-//! Two convex sets in the plane that don't touch are separated along a normal of an edge of one of
-//! them. So it is enough to try the solid's directions and the normals of the hull's own edges.
+//! The solid's own directions come first. Where none of them separates, the nearest points of solid
+//! and hull say which plane does, if any: between edges that pass each other, corners, round parts.
 
-use super::{Abstraction, SolidId, dot};
+use super::nearest::{self, Vector, vector};
+use super::{Abstraction, Solid, SolidId, dot};
 use crate::ir::ModelId;
 use crate::tube::Tube;
 
@@ -41,9 +42,24 @@ impl PositionTube {
         PositionTube { generators, outline }
     }
 
+    /// The generators: the tube is the sum of the segments between each and its negative.
+    pub(super) fn generators(&self) -> &[Vec<f64>] {
+        &self.generators
+    }
+
     /// The corners in the plane, counter-clockwise.
     pub(super) fn outline(&self) -> &[[f64; 2]] {
         &self.outline
+    }
+
+    /// The point of the tube around a middle that lies farthest along a direction.
+    pub(super) fn farthest(&self, d: &Vector, middle: Vector) -> Vector {
+        let mut point = middle;
+        for generator in &self.generators {
+            let sign = if dot(&d[..generator.len()], generator) < 0.0 { -1.0 } else { 1.0 };
+            point.iter_mut().zip(generator).for_each(|(x, g)| *x += sign * g);
+        }
+        point
     }
 
     /// A double that is at least the support: the relative error of so short a sum is far below the
@@ -91,8 +107,10 @@ impl Abstraction {
     pub fn separate(&self, bodies: &[Body<'_>], solid: SolidId) -> Option<Plane> {
         let faces = &self.solids[solid].faces;
         let known = faces.iter().map(|(_, d)| self.slab(bodies, solid, &self.directions[*d].vector));
-        let own = |normal: &Vec<f64>| self.slab(bodies, solid, normal);
-        widest(known).or_else(|| widest(self.hull_normals(bodies, solid).iter().map(own)))
+        widest(known).or_else(|| {
+            let normals = self.nearest_normals(bodies, &self.solids[solid]);
+            widest(normals.iter().map(|normal| self.slab(bodies, solid, normal)))
+        })
     }
 
     /// The slab between the hull of some bodies and a solid along a normal, if it is wide enough.
@@ -109,38 +127,22 @@ impl Abstraction {
         dot(d, body.center) + body.model.map_or(0.0, |model| self.tubes[model].support(d))
     }
 
-    /// Candidate normals from the bodies themselves.
-    fn hull_normals(&self, bodies: &[Body<'_>], solid: SolidId) -> Vec<Vec<f64>> {
-        if self.dimension != 2 {
-            return Vec::new();
-        }
-        let mut corners = Vec::new();
-        for body in bodies {
-            let moved = |c: &[f64; 2]| [c[0] + body.center[0], c[1] + body.center[1]];
-            match body.model {
-                None => corners.push(moved(&[0.0, 0.0])),
-                Some(model) => corners.extend(self.tubes[model].outline.iter().map(moved)),
-            }
-        }
-        let mut normals: Vec<Vec<f64>> = Vec::new();
-        let hull = convex_hull(corners);
-        for (i, a) in hull.iter().enumerate() {
-            let b = hull[(i + 1) % hull.len()];
-            normals.extend(unit([b[1] - a[1], a[0] - b[0]]));
-        }
-        if let [a, b] = bodies {
-            let along = [b.center[0] - a.center[0], b.center[1] - a.center[1]];
-            normals.extend(unit([along[1], -along[0]]));
-            normals.extend(unit([-along[1], along[0]]));
-        }
-        if let Some(ball) = &self.solids[solid].ball {
-            normals.extend(
-                bodies
-                    .iter()
-                    .filter_map(|b| unit([ball.center[0] - b.center[0], ball.center[1] - b.center[1]])),
-            );
-        }
-        normals
+    /// The unit normals of the widest slab that may lie between the hull of some bodies and a solid.
+    fn nearest_normals(&self, bodies: &[Body<'_>], solid: &Solid) -> Vec<Vec<f64>> {
+        let farthest = |d: &Vector| {
+            let of_body = |b: &Body<'_>| {
+                let at = vector(b.center);
+                b.model.map_or(at, |model| self.tubes[model].farthest(d, at))
+            };
+            let points = bodies.iter().map(of_body);
+            points.max_by(|a, b| nearest::dot(d, a).total_cmp(&nearest::dot(d, b))).unwrap_or_default()
+        };
+        let least = |d: &Vector| nearest::minus(&solid.lowest(d), &farthest(d));
+        let near = solid.ball.as_ref().map_or(0.0, |ball| ball.radius);
+        let first =
+            bodies.first().map_or([1.0, 0.0, 0.0], |b| nearest::minus(&solid.middle(), &vector(b.center)));
+        let found = nearest::normals(least, &first, near);
+        found.iter().filter_map(|v| unit(&v[..self.dimension])).collect()
     }
 }
 
@@ -148,8 +150,8 @@ fn widest(planes: impl Iterator<Item = Option<Plane>>) -> Option<Plane> {
     planes.flatten().max_by(|a, b| a.width.total_cmp(&b.width))
 }
 
-fn unit(v: [f64; 2]) -> Option<Vec<f64>> {
-    let length = dot(&v, &v).sqrt();
+fn unit(v: &[f64]) -> Option<Vec<f64>> {
+    let length = dot(v, v).sqrt();
     (length > 0.0).then(|| v.iter().map(|x| x / length).collect())
 }
 
@@ -177,3 +179,6 @@ pub(super) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     hull.extend(half(&mut points.iter().rev()));
     hull
 }
+
+#[cfg(test)]
+mod tests;

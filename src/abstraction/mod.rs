@@ -13,11 +13,14 @@ mod clearance;
 mod directions;
 mod error_set;
 mod narrow_region;
+mod nearest;
+mod oblique;
 mod partition;
 mod passage;
 mod separation;
 mod solid;
 mod start;
+mod tangents;
 
 pub use bounds::{Bounds, MixedRow};
 pub use clearance::{Body, Plane};

@@ -1,6 +1,8 @@
 //! Solids: convex pieces to keep clear of, each with the directions that do it.
 
-use super::{DirectionId, Directions, HalfSpace, Stage, dot};
+use super::nearest::{Vector, vector};
+use super::oblique::Edge;
+use super::{DirectionId, Directions, HalfSpace, Stage, dot, oblique, tangents};
 use crate::entity::Table;
 use crate::entity_id;
 use crate::exact::Rational;
@@ -44,6 +46,9 @@ pub struct Solid {
     pub ball: Option<Ball>,
     /// The directions that keep clear of it, by stage.
     pub faces: Vec<(Stage, DirectionId)>,
+    /// In space, its edges and the outward normals of its facets (none for a Euclidean ball).
+    pub(super) edges: Vec<Edge>,
+    pub(super) normals: Vec<Vector>,
 }
 
 impl Solid {
@@ -58,7 +63,37 @@ impl Solid {
         }
     }
 
-    fn add_face(&mut self, stage: Stage, direction: DirectionId) {
+    /// The lowest point of the solid along a direction; of a Euclidean ball's centres.
+    pub(super) fn lowest(&self, d: &Vector) -> Vector {
+        match &self.ball {
+            Some(ball) => {
+                let mut point = vector(&ball.center);
+                for ((x, s), a) in point.iter_mut().zip(&ball.spread).zip(d) {
+                    *x -= if *a < 0.0 { -s } else { *s };
+                }
+                point
+            }
+            None => {
+                let heights = self.vertices.iter().map(|q| (dot(&d[..q.len()], q), q));
+                let lowest = heights.min_by(|a, b| a.0.total_cmp(&b.0));
+                lowest.map_or([0.0; 3], |(_, q)| vector(q))
+            }
+        }
+    }
+
+    /// A point inside.
+    pub(super) fn middle(&self) -> Vector {
+        match &self.ball {
+            Some(ball) => vector(&ball.center),
+            None => {
+                let count = self.vertices.len().max(1) as f64;
+                let sum = |axis: usize| self.vertices.iter().filter_map(|q| q.get(axis)).sum::<f64>();
+                [0, 1, 2].map(|axis| sum(axis) / count)
+            }
+        }
+    }
+
+    pub(super) fn add_face(&mut self, stage: Stage, direction: DirectionId) {
         if self.faces.iter().all(|(_, d)| *d != direction) {
             self.faces.push((stage, direction));
         }
@@ -74,10 +109,9 @@ pub(super) fn of_problem(problem: &Problem, directions: &mut Directions, gap: f6
         for (piece, shape) in blocker.shape.pieces.iter().enumerate() {
             let mut solid = solid(Owner::Blocker(id), piece, shape, directions);
             if blocker.kind.blocks_links() {
-                add_tangents(&mut solid, &bases, directions, gap);
-                add_ball_tangents(&mut solid, &bases, directions, gap);
+                bases.iter().for_each(|base| tangents::add(&mut solid, base, directions, gap));
             }
-            add_oblique(&mut solid, problem.dimension, directions);
+            oblique::add(&mut solid, problem.dimension, directions);
             solids.push(solid);
         }
     }
@@ -89,12 +123,21 @@ pub(super) fn of_problem(problem: &Problem, directions: &mut Directions, gap: f6
     solids
 }
 
-fn solid(owner: Owner, piece: usize, shape: &Piece, directions: &mut Directions) -> Solid {
+pub(super) fn solid(owner: Owner, piece: usize, shape: &Piece, directions: &mut Directions) -> Solid {
     let floats = |v: &[Rational]| -> Vec<f64> { v.iter().map(Rational::to_f64).collect() };
-    let mut solid = Solid { owner, piece, vertices: Vec::new(), ball: None, faces: Vec::new() };
+    let mut solid = Solid {
+        owner,
+        piece,
+        vertices: Vec::new(),
+        ball: None,
+        faces: Vec::new(),
+        edges: oblique::edges(shape),
+        normals: Vec::new(),
+    };
     let normals: Vec<Vec<f64>> = match shape {
         Piece::Polytope(p) => {
             solid.vertices = p.vertices.iter().map(|v| floats(v)).collect();
+            solid.normals = p.facets.iter().map(|f| vector(&floats(&f.normal))).collect();
             p.facets.iter().map(|f| f.normal.iter().map(|x| -x.to_f64()).collect()).collect()
         }
         Piece::Ball { center, spread, radius } => {
@@ -145,69 +188,4 @@ fn sphere(dimension: usize) -> (Vec<Vec<f64>>, f64) {
     // {x : n · x ≤ 1 for these 26 normals} has its farthest vertices at (1, √2 − 1, √3 − √2) and its
     // mirror images, 1.1280… away from the middle.
     (normals, 0.886)
-}
-
-/// Adds the tangents from each base to a solid in the plane, turned by a hair so that the base
-/// itself lies clear of the solid.
-fn add_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directions, gap: f64) {
-    for base in bases.iter().filter(|b| b.len() == 2) {
-        for vertex in solid.vertices.clone() {
-            let along = [vertex[0] - base[0], vertex[1] - base[1]];
-            let distance = dot(&along, &along).sqrt();
-            if distance <= 4.0 * gap {
-                continue;
-            }
-            // The normal of the line from base to vertex, in both senses, turned so that the base
-            // lies a gap below the line through the vertex.
-            let turn = gap / distance;
-            for sense in [1.0, -1.0] {
-                let normal = [turn * along[0] - sense * along[1], turn * along[1] + sense * along[0]];
-                let direction = normal.map(|x| x / distance);
-                if solid.level(&direction) >= dot(&direction, &vertex) - 1e-3 * gap {
-                    solid.add_face(Stage::Tangents, directions.intern_near(&direction));
-                }
-            }
-        }
-    }
-}
-
-/// Adds the two tangents from each base to a Euclidean ball in the plane.
-///
-/// The directions that have the base below the ball by a gap are those within some angle of the
-/// way to its centre; both ends of that range are found by bisection.
-fn add_ball_tangents(solid: &mut Solid, bases: &[Vec<f64>], directions: &mut Directions, gap: f64) {
-    let Some(ball) = solid.ball.clone() else { return };
-    for base in bases.iter().filter(|b| b.len() == 2) {
-        let middle = (ball.center[1] - base[1]).atan2(ball.center[0] - base[0]);
-        let direction = |turn: f64| [(middle + turn).cos(), (middle + turn).sin()];
-        let clear = |turn: f64| solid.level(&direction(turn)) - dot(&direction(turn), base) >= gap;
-        if !clear(0.0) {
-            continue;
-        }
-        let tangents = [1.0, -1.0].map(|sense| {
-            let (mut inside, mut outside) = (0.0, sense * std::f64::consts::FRAC_PI_2);
-            for _ in 0..60 {
-                let turn = 0.5 * (inside + outside);
-                if clear(turn) { inside = turn } else { outside = turn }
-            }
-            direction(inside)
-        });
-        for tangent in tangents {
-            solid.add_face(Stage::Tangents, directions.intern_near(&tangent));
-        }
-    }
-}
-
-/// Adds the diagonals of each pair of axes.
-fn add_oblique(solid: &mut Solid, dimension: usize, directions: &mut Directions) {
-    for i in 0..dimension {
-        for j in i + 1..dimension {
-            for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-                let mut vector = vec![0.0; dimension];
-                vector[i] = a;
-                vector[j] = b;
-                solid.add_face(Stage::Oblique, directions.intern_near(&vector));
-            }
-        }
-    }
 }

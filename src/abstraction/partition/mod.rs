@@ -5,8 +5,8 @@
 //! other is said of the hull of both cells with their tubes: a move or a link that the relations allow
 //! is safe for whatever positions in these cells. A robot's start is a place of its own, a point.
 //!
-//! In the plane 'misses' is exact up to the gap; in space a hull counts as clear of a blocker only
-//! along the directions that the half-spaces have too.
+//! 'Misses' is exact up to the gap, but for Euclidean balls in the plane: they count as polygons
+//! around them.
 
 mod carve;
 mod cell;

@@ -5,6 +5,7 @@
 //! misses the blocker itself, so moves and links ask the same question.
 
 use crate::abstraction::clearance::convex_hull;
+use crate::abstraction::nearest::{self, Vector, vector};
 use crate::abstraction::{Abstraction, HalfSpace, Owner, SolidId, Stage, dot};
 use crate::ir::{ModelId, Problem};
 
@@ -18,6 +19,8 @@ const MARGIN: f64 = 0.75;
 pub(super) struct Place {
     /// Corners of the set: in the plane of the positions themselves, in space of the nominal ones.
     corners: Vec<Vec<f64>>,
+    /// In space, whose tube is around the corners.
+    model: Option<ModelId>,
     middle: Vec<f64>,
     /// By blocker and direction: the set is clear of the blocker along it.
     clear: Vec<u64>,
@@ -25,6 +28,7 @@ pub(super) struct Place {
 
 /// A blocker's convex piece, with its margin.
 struct Screen {
+    solid: SolidId,
     blocks_links: bool,
     /// Directions with the levels that a clear place stays below.
     faces: Vec<(Vec<f64>, f64, crate::abstraction::DirectionId)>,
@@ -75,7 +79,7 @@ impl<'a> Sight<'a> {
         let first = self.words;
         self.words += faces.len().div_ceil(64);
         let mut screen =
-            Screen { blocks_links, facets, faces, corners: Vec::new(), words: first..self.words };
+            Screen { solid, blocks_links, facets, faces, corners: Vec::new(), words: first..self.words };
         if abstraction.dimension == 2 {
             screen.corners = outline(abstraction, &screen);
         }
@@ -109,7 +113,7 @@ impl<'a> Sight<'a> {
             }
             _ => nominal,
         };
-        Place { corners, middle, clear }
+        Place { corners, model, middle, clear }
     }
 
     /// Whether the hull of two places misses everything that blocks links.
@@ -131,7 +135,38 @@ impl<'a> Sight<'a> {
         if screen.words.clone().any(|w| a.clear[w] & b.clear[w] != 0) {
             return true;
         }
-        self.abstraction.dimension == 2 && !screen.cuts(&a.middle, &b.middle) && screen.misses(a, b)
+        if self.abstraction.dimension == 2 {
+            return !screen.cuts(&a.middle, &b.middle) && screen.misses(a, b);
+        }
+        // A ball's facets bound more than the ball.
+        let round = self.abstraction.solids[screen.solid].ball.is_some();
+        (round || !screen.cuts(&a.middle, &b.middle)) && self.separates(a, b, screen.solid)
+    }
+
+    /// Whether a plane in space leaves the margin between the hull of two places and a blocker.
+    fn separates(&self, a: &Place, b: &Place, solid: SolidId) -> bool {
+        let solid = &self.abstraction.solids[solid];
+        let farthest = |d: &Vector| {
+            let ends = [a, b].map(|place| place.farthest(d, self.abstraction));
+            if nearest::dot(d, &ends[0]) < nearest::dot(d, &ends[1]) { ends[1] } else { ends[0] }
+        };
+        let least = |d: &Vector| nearest::minus(&solid.lowest(d), &farthest(d));
+        let near = solid.ball.as_ref().map_or(0.0, |ball| ball.radius);
+        let first = nearest::minus(&solid.middle(), &vector(&a.middle));
+        let wide = |n: &Vector| {
+            let length = nearest::dot(n, n).sqrt();
+            nearest::dot(n, &least(n)) >= (near + MARGIN * self.abstraction.gap) * length
+        };
+        nearest::normals(least, &first, near).iter().any(wide)
+    }
+}
+
+impl Place {
+    /// The point that lies farthest along a direction in space.
+    fn farthest(&self, d: &Vector, abstraction: &Abstraction) -> Vector {
+        let heights = self.corners.iter().map(|c| (dot(d, c), c));
+        let corner = heights.max_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 3], |(_, c)| vector(c));
+        self.model.map_or(corner, |model| abstraction.tubes[model].farthest(d, corner))
     }
 }
 

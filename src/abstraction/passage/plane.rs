@@ -1,18 +1,15 @@
-//! Which parts of the free space a robot can get to at all, in the plane.
+//! The free space in the plane, cut into trapezoids by vertical lines through all corners and
+//! crossings (the vertical decomposition).
 //!
-//! Between two samples the chord of a robot's nominal positions misses every blocker inflated by the
-//! robot's tube, so the whole nominal path is a curve in the free space. If start and region lie in
-//! different components, no plan of any length exists, which no bounded search could find out.
-//!
-//! The free space is cut into trapezoids by vertical lines through all corners and crossings (the
-//! vertical decomposition). Whatever touches up to rounding counts as connected, so rounding can
-//! hide that a region is cut off but not cut one off.
+//! A Euclidean ball counts as a polygon inside it. Whatever touches up to rounding counts as connected.
 
-use super::{Abstraction, HalfSpace, Owner, dot};
+use crate::abstraction::{Abstraction, HalfSpace, Owner, Solid, clearance, dot};
 use crate::ir::ModelId;
 
-/// Lengths below this share of the workspace's size count as none.
-const TOUCH: f64 = 1e-9;
+use super::TOUCH;
+
+/// How many corners stand for a Euclidean ball.
+const ARC_CORNERS: u32 = 48;
 
 /// A trapezoid of the free space between two vertical lines.
 #[derive(Clone, Copy, Debug)]
@@ -24,29 +21,21 @@ struct Cell {
     right: [f64; 2],
 }
 
-/// The components of a model's free space.
+/// The components of a model's free space in the plane.
 #[derive(Clone, Debug)]
-pub struct Passage {
+pub(super) struct Plane {
     lines: Vec<f64>,
     cells: Vec<Cell>,
     component: Vec<usize>,
     touch: f64,
 }
 
-impl Passage {
-    /// The free space of a model's nominal positions; `None` outside the plane, or with Euclidean
-    /// balls in the way.
-    pub fn new(abstraction: &Abstraction, model: ModelId) -> Option<Passage> {
-        if abstraction.dimension != 2 {
-            return None;
-        }
-        let mut blocked = Vec::new();
-        for solid in abstraction.solids.values().filter(|s| matches!(s.owner, Owner::Blocker(_))) {
-            if solid.ball.is_some() {
-                return None;
-            }
-            blocked.push(abstraction.inflated(model, &solid.vertices));
-        }
+impl Plane {
+    /// The free space of a model's nominal positions.
+    pub(super) fn new(abstraction: &Abstraction, model: ModelId) -> Plane {
+        let blockers = abstraction.solids.values().filter(|s| matches!(s.owner, Owner::Blocker(_)));
+        let blocked: Vec<Vec<[f64; 2]>> =
+            blockers.map(|solid| abstraction.inflated(model, &within(solid))).collect();
         let walls: Vec<(&[f64], f64)> = abstraction.workspace[model]
             .iter()
             .map(|w| (&abstraction.directions[w.direction].vector[..], w.offset))
@@ -56,11 +45,11 @@ impl Passage {
         let lines = lines(&blocked, &room, touch);
         let cells = cells(&lines, &blocked, &room, touch);
         let component = components(&cells, touch);
-        Some(Passage { lines, cells, component, touch })
+        Plane { lines, cells, component, touch }
     }
 
     /// Whether some point of a convex set, given by half-spaces, may lie in the component of a point.
-    pub fn connects(&self, abstraction: &Abstraction, from: &[f64], region: &[HalfSpace]) -> bool {
+    pub(super) fn connects(&self, abstraction: &Abstraction, from: &[f64], region: &[HalfSpace]) -> bool {
         let home: Vec<usize> = (0..self.cells.len())
             .filter(|&cell| self.holds(cell, from))
             .map(|cell| self.component[cell])
@@ -89,6 +78,23 @@ impl Passage {
             (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) >= 0.0
         })
     }
+}
+
+/// Points whose hull lies in a solid: its corners, or points on the edge of a Euclidean ball.
+fn within(solid: &Solid) -> Vec<Vec<f64>> {
+    let Some(ball) = &solid.ball else { return solid.vertices.clone() };
+    let mut points = Vec::new();
+    for i in 0..ARC_CORNERS {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(ARC_CORNERS)).sin_cos();
+        for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+            points.push(vec![
+                ball.center[0] + x * ball.spread[0] + ball.radius * cos,
+                ball.center[1] + y * ball.spread[1] + ball.radius * sin,
+            ]);
+        }
+    }
+    let hull = clearance::convex_hull(points.iter().map(|p| [p[0], p[1]]).collect());
+    hull.into_iter().map(|p| p.to_vec()).collect()
 }
 
 /// The part of a convex polygon (counter-clockwise) in which all `d · p ≤ offset`.
