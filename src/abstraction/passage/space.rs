@@ -340,7 +340,7 @@ mod tests {
     #[test]
     fn slanted_walls_and_a_ball_close_a_tent() {
         assert!(!connected(TENT));
-        assert!(connected(&TENT.replace("ball (6, 6, 3.2)", "ball (6, 6, 5)")));
+        assert!(connected(&TENT.replace("ball (6, 6, 3.2)", "ball (2, 10, 4)")));
     }
 
     /// Boxes that are blocked lie in a blocker with every point, by the planes that separate.
