@@ -17,6 +17,7 @@ mod nearest;
 mod oblique;
 mod partition;
 mod passage;
+mod range;
 mod separation;
 mod solid;
 mod start;
@@ -28,6 +29,7 @@ pub use directions::{Direction, DirectionId, Directions};
 pub use error_set::ErrorSet;
 pub use partition::{Cell, CellId, Fineness, MOST_CELLS, Partition, Place, TooFine};
 pub use passage::Passage;
+pub use range::{Ends, LinkRange};
 pub use solid::{Owner, Solid, SolidId};
 pub use start::inspect;
 
@@ -94,6 +96,8 @@ pub struct Abstraction {
     pub workspace: Table<ModelId, Vec<HalfSpace>>,
     /// The partition into cells; `None` unless [asked for](Abstraction::with_cells).
     pub partition: Option<Partition>,
+    /// The longest link; `None` when links may be of any length.
+    pub range: Option<LinkRange>,
     tubes: Table<ModelId, PositionTube>,
     supports: Table<ModelId, Vec<f64>>,
     ceilings: Table<ModelId, Vec<f64>>,
@@ -122,6 +126,7 @@ impl Abstraction {
             solids,
             workspace: Table::new(),
             partition: None,
+            range: None,
             tubes: Table::new(),
             supports: Table::new(),
             ceilings: Table::new(),
@@ -130,6 +135,7 @@ impl Abstraction {
             bases: problem.bases.values().map(base).collect(),
         };
         abstraction.add_models(problem, tubes, &corners, walls);
+        abstraction.range = LinkRange::new(problem, &abstraction);
         abstraction
     }
 

@@ -1,7 +1,7 @@
 //! What literals and numbers of an instance are called in files.
 
 use crate::abstraction::Abstraction;
-use crate::encode::{Leaf, Link, Meaning, Variable};
+use crate::encode::{Leaf, Link, Meaning, Near, Variable};
 use crate::entity::EntityId;
 use crate::exact::Rational;
 use crate::ir::{Problem, RobotId};
@@ -62,7 +62,15 @@ impl<'a> Names<'a> {
                 let (first, second) = (self.robot(face.first), self.robot(face.second));
                 format!("apart {first} {second} {sign}{} at {}", face.axis, face.step)
             }
+            Meaning::Leaf(Leaf::Near(near)) => self.near(near),
         }
+    }
+
+    fn near(&self, near: &Near) -> String {
+        let robots: Vec<&str> = near.robots().map(|(robot, _)| self.robot(robot)).collect();
+        let normal: Vec<String> =
+            near.normal.iter().take(self.problem.dimension).map(|x| format!("{x:?}")).collect();
+        format!("near {} ({}) <= {:?} at {}", robots.join(" "), normal.join(" "), near.offset, near.step)
     }
 
     /// The names of a link's ends, a robot's first.

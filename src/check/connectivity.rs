@@ -39,7 +39,6 @@ impl Checker<'_> {
             ConnectivityKind::Hops(expr) => connectivity.hops = Some(self.hops(expr)?),
             ConnectivityKind::Range { length, norm } => {
                 connectivity.range = Some(self.link_range(length, norm.as_ref())?);
-                return Err(self.report(messages::unsupported("`range`", item.span)));
             }
             ConnectivityKind::Redundancy(expr) => {
                 connectivity.redundancy = self.redundancy(expr)?;

@@ -1,4 +1,4 @@
-//! The convex part of a whole instance: linear rows over states and inputs, in blocks that literals
+//! The convex part of a whole instance: linear and cone rows over states and inputs, in blocks that literals
 //! switch on.
 //!
 //! The search never builds this: it has small programs of its own (`solve::convex`). Files do, so
@@ -9,10 +9,10 @@ use rustsat::types::Lit;
 use crate::abstraction::{Abstraction, Bounds};
 use crate::entity::{EntityId, Table};
 use crate::exact::{Rational, primitive};
-use crate::ir::{ModelId, Problem, RobotId};
+use crate::ir::{ModelId, Norm, Problem, RobotId};
 use crate::tube::Tubes;
 
-use super::{Face, Leaf};
+use super::{Face, Leaf, Link, Near, link_models};
 
 /// Whole numbers of fewer bits are doubles.
 const MANTISSA: usize = 53;
@@ -60,6 +60,15 @@ pub struct Row {
     pub bound: f64,
 }
 
+/// ‖(Σ coefficient · variable + constant, …)‖₂ ≤ bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cone {
+    /// One sum a coordinate of the workspace: terms as in a [`Row`], and a constant.
+    pub sums: Vec<(Vec<(usize, f64)>, f64)>,
+    /// The right-hand side.
+    pub bound: f64,
+}
+
 /// Rows that hold together: always, or where a literal is true.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
@@ -67,8 +76,10 @@ pub struct Block {
     pub name: String,
     /// What switches it on; `None` where nothing has to.
     pub literal: Option<Lit>,
-    /// The rows.
+    /// The linear rows.
     pub rows: Vec<Row>,
+    /// The second-order cone rows.
+    pub cones: Vec<Cone>,
 }
 
 /// The convex part of an instance.
@@ -145,7 +156,7 @@ impl<'a> Builder<'a> {
 
     fn push(&mut self, name: String, literal: Option<Lit>, rows: Vec<Row>) {
         if !rows.is_empty() {
-            self.convex.blocks.push(Block { name, literal, rows });
+            self.convex.blocks.push(Block { name, literal, rows, cones: Vec::new() });
         }
     }
 
@@ -235,6 +246,7 @@ impl<'a> Builder<'a> {
                 self.push(title, Some(lit), rows);
             }
             Leaf::Apart(face) => self.add_face(lit, *face),
+            Leaf::Near(near) => self.add_near(lit, near),
         }
     }
 
@@ -253,6 +265,46 @@ impl<'a> Builder<'a> {
         let [first, second] = pair.map(|robot| &self.problem.robots[robot].name);
         let title = format!("{first} and {second} apart from {} to {}", face.step, face.step + 1);
         self.push(title, Some(lit), rows);
+    }
+
+    fn add_near(&mut self, lit: Lit, near: &Near) {
+        let mut terms = Vec::new();
+        for (robot, sign) in near.robots() {
+            let along =
+                near.axes().map(|axis| (self.coordinate(robot, near.step, axis), sign * near.normal[axis]));
+            terms.extend(along);
+        }
+        let rows = vec![row(terms, Relation::AtMost, near.offset)];
+        let names: Vec<&str> = near.robots().map(|(robot, _)| &*self.problem.robots[robot].name).collect();
+        let title = format!("{} near at {}", names.join(" and "), near.step);
+        self.push(title, Some(lit), rows);
+    }
+
+    /// With a Euclidean range: a cone for each corner that the ends' errors can differ by.
+    pub fn add_link(&mut self, lit: Lit, link: Link, step: usize) {
+        let abstraction = self.abstraction;
+        let Some(range) = abstraction.range.as_ref().filter(|r| r.norm == Norm::Euclidean) else { return };
+        let sum = |axis: usize, corner: &[f64]| match link {
+            Link::Robots(a, b) => {
+                let terms =
+                    vec![(self.coordinate(a, step, axis), 1.0), (self.coordinate(b, step, axis), -1.0)];
+                (row(terms, Relation::AtMost, 0.0).terms, corner[axis])
+            }
+            Link::Base(robot, base) => {
+                (vec![(self.coordinate(robot, step, axis), 1.0)], corner[axis] - abstraction.base(base)[axis])
+            }
+        };
+        let cone = |corner: &Vec<f64>| Cone {
+            sums: (0..corner.len()).map(|axis| sum(axis, corner)).collect(),
+            bound: range.length,
+        };
+        let cones = range.corners(link_models(self.problem, link)).iter().map(cone).collect();
+        let (from, to) = match link {
+            Link::Robots(a, b) => (&self.problem.robots[a].name, &self.problem.robots[b].name),
+            Link::Base(robot, base) => (&self.problem.robots[robot].name, &self.problem.bases[base].name),
+        };
+        let name = format!("{from} and {to} in range at {step}");
+        self.convex.blocks.push(Block { name, literal: Some(lit), rows: Vec::new(), cones });
     }
 
     /// z_{L+1} = z_k for all robots.

@@ -22,6 +22,42 @@ pub enum Leaf {
     /// `sign · (z_first − z_second)[axis]` is at least the separation and both tubes, at a step and
     /// at the one after.
     Apart(Face),
+    /// `normal · (z_first − z_second) ≤ offset`.
+    Near(Near),
+}
+
+/// A bound on the difference of two robots' nominal positions at a step, or on one robot's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The first robot.
+    pub first: RobotId,
+    /// The second robot; `None` where the bound is on the first alone.
+    pub second: Option<RobotId>,
+    /// When.
+    pub step: usize,
+    /// One entry a coordinate of the workspace, then zeros.
+    pub normal: [f64; 3],
+    /// The offset.
+    pub offset: f64,
+}
+
+impl Near {
+    /// A bound along a normal of two or three entries.
+    pub fn new(first: RobotId, second: Option<RobotId>, step: usize, along: &[f64], offset: f64) -> Near {
+        let mut normal = [0.0; 3];
+        normal.iter_mut().zip(along).for_each(|(to, from)| *to = *from);
+        Near { first, second, step, normal, offset }
+    }
+
+    /// Whose positions it bounds, each with its sign.
+    pub fn robots(&self) -> impl Iterator<Item = (RobotId, f64)> {
+        [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
+    }
+
+    /// The axes along which the normal has a part.
+    pub fn axes(self) -> impl Iterator<Item = usize> {
+        (0..3).filter(move |&axis| self.normal[axis] != 0.0)
+    }
 }
 
 /// One face of the separation of two robots.

@@ -7,7 +7,7 @@ use rustsat::types::Lit;
 use super::circuit::{Bit, Circuit};
 
 /// A possible link at one step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Link {
     /// Between two robots, the first with the smaller id.
     Robots(RobotId, RobotId),

@@ -13,14 +13,16 @@ mod leaf;
 mod links;
 mod paper;
 mod paper_links;
+mod range;
 mod temporal;
 mod whole;
 
 pub use circuit::Bit;
 pub use connectivity::{is_asked, losses};
-pub use convex::{Block, Convex, Relation, Row, Variable};
-pub use leaf::{Anywhere, Face, Leaf, Reach};
+pub use convex::{Block, Cone, Convex, Relation, Row, Variable};
+pub use leaf::{Anywhere, Face, Leaf, Near, Reach};
 pub use links::Link;
+pub use range::link_models;
 pub use whole::{Instance, Meaning, TooLarge, number};
 
 use std::collections::{HashMap, HashSet};
@@ -111,6 +113,8 @@ pub struct Encoder<'a> {
     access: HashMap<(RobotId, RegionId, usize), bool>,
     apart: HashSet<(RobotId, RobotId, usize)>,
     cuts: HashMap<(RobotId, RobotId, usize), Vec<f64>>,
+    /// Links that are short enough along the axes, and along which other normals, as bits.
+    ranges: HashSet<(Link, usize, Option<Vec<u64>>)>,
 }
 
 impl<'a> Encoder<'a> {
@@ -143,6 +147,7 @@ impl<'a> Encoder<'a> {
             access: HashMap::new(),
             apart: HashSet::new(),
             cuts: HashMap::new(),
+            ranges: HashSet::new(),
         }
     }
 

@@ -8,7 +8,7 @@ use rustsat::instances::Cnf;
 use rustsat::types::Lit;
 
 use crate::abstraction::{Abstraction, CellId, Owner, SolidId};
-use crate::ir::{Problem, RobotId};
+use crate::ir::{Norm, Problem, RobotId};
 use crate::tube::Tubes;
 
 use super::convex::{Builder, Convex};
@@ -101,7 +101,8 @@ impl Instance {
             match meaning {
                 Meaning::Leaf(leaf) => builder.add_leaf(*lit, leaf),
                 Meaning::Loop { length, start } => builder.add_loop(*lit, *length, *start),
-                Meaning::Length(_) | Meaning::Link(..) | Meaning::Cell { .. } => {}
+                Meaning::Link(link, step) => builder.add_link(*lit, *link, *step),
+                Meaning::Length(_) | Meaning::Cell { .. } => {}
             }
         }
         let lengths = (from..=to).map(|length| (length, encoder.last(length))).collect();
@@ -157,6 +158,7 @@ impl Encoder<'_> {
                 self.abstraction.solids.ids().for_each(|solid| self.demand_clear(step, solid));
             }
             self.demand_all_apart(step);
+            self.demand_all_ranges(step);
             if let Some(asked) = &self.problem.connectivity {
                 let losses = connectivity::losses(asked, self.problem.robots.len());
                 losses.for_each(|lost| self.demand_reach(step, &lost));
@@ -182,6 +184,16 @@ impl Encoder<'_> {
         for (link, lit) in links {
             let bit = self.clear(solid, link_ends(link, step).to_vec());
             self.circuit.grow(lit, bit);
+        }
+    }
+
+    /// Along the axes; a Euclidean range is a cone of the link's own.
+    fn demand_all_ranges(&mut self, step: usize) {
+        if self.abstraction.range.as_ref().is_some_and(|range| range.norm == Norm::Infinity) {
+            let links: Vec<Link> = self.links[step].iter().map(|(link, _)| link).collect();
+            for link in links {
+                self.demand_range(link, step);
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! What trajectories violate of all that the Boolean part has left out so far.
 
 use crate::abstraction::{Abstraction, Body, Owner, SolidId};
-use crate::encode::{Link, is_asked, losses};
+use crate::encode::{Link, is_asked, link_models, losses};
 use crate::entity::{EntityId, Table};
 use crate::ir::{Problem, RobotId};
 
@@ -16,6 +16,8 @@ pub enum Violation {
     Link(Link, usize, SolidId),
     /// Two robots are not apart during a step; the coordinates halfway between them at both ends.
     Apart(RobotId, RobotId, usize, [Vec<f64>; 2]),
+    /// A link in use may be longer than the range, along this normal.
+    TooLong(Link, usize, Vec<f64>),
     /// Some robot reaches no base at a step when others are lost.
     CutOff(usize, Vec<RobotId>),
 }
@@ -51,6 +53,7 @@ impl<'a> Scene<'a> {
         let mut found = Vec::new();
         self.moves(&mut found);
         self.links(links, &mut found);
+        self.ranges(links, &mut found);
         self.pairs(&mut found);
         self.losses(links, loop_start, &mut found);
         found
@@ -99,6 +102,18 @@ impl<'a> Scene<'a> {
                         found.push(Violation::Link(link, step, solid));
                     }
                 }
+            }
+        }
+    }
+
+    fn ranges(&self, links: &[Vec<Link>], found: &mut Vec<Violation>) {
+        let Some(range) = &self.abstraction.range else { return };
+        for (step, links) in links.iter().enumerate() {
+            for &link in links {
+                let [a, b] = self.ends(link, step).map(|body| body.center);
+                let between: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - y).collect();
+                let excess = range.excess(link_models(self.problem, link), &between);
+                found.extend(excess.map(|normal| Violation::TooLong(link, step, normal)));
             }
         }
     }

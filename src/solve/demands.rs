@@ -31,6 +31,8 @@ pub struct Demands {
     /// deferred disjuncts were given their meaning.
     clear: BTreeMap<(What, SolidId), Vec<BTreeSet<usize>>>,
     apart: BTreeSet<(RobotId, RobotId, usize)>,
+    /// By link: the steps at which it is to be short enough along the axes.
+    ranges: BTreeMap<Link, BTreeSet<usize>>,
     /// By who is lost: the steps at which the others are to reach a base.
     reach: BTreeMap<Vec<RobotId>, BTreeSet<usize>>,
 }
@@ -47,6 +49,11 @@ impl Demands {
                 }
                 Violation::Link(link, step, solid) => {
                     self.demand(What::Link(link), step, solid, length, encoder)
+                }
+                Violation::TooLong(link, step, normal) => {
+                    // The tangent through the very excess, once the axes' rows are there.
+                    self.demand_range(link, step, length, encoder)
+                        || encoder.demand_range_along(link, step, &normal)
                 }
                 Violation::CutOff(step, lost) => self.demand_reach(step, lost, length, encoder),
                 Violation::Apart(first, second, step, cuts) => {
@@ -79,6 +86,21 @@ impl Demands {
         true
     }
 
+    fn demand_range(&mut self, link: Link, step: usize, length: usize, encoder: &mut Encoder<'_>) -> bool {
+        let steps = self.ranges.entry(link).or_default();
+        if !steps.insert(step) {
+            return false;
+        }
+        encoder.demand_range(link, step);
+        if steps.len() == RECURRING {
+            let others = (0..=length).filter(|step| steps.insert(*step));
+            others.for_each(|step| {
+                encoder.demand_range(link, step);
+            });
+        }
+        true
+    }
+
     fn demand_reach(
         &mut self,
         step: usize,
@@ -100,6 +122,11 @@ impl Demands {
 
     /// Makes the recurring demands for the last step of a new length.
     pub fn extend(&mut self, length: usize, encoder: &mut Encoder<'_>) {
+        for (link, steps) in self.ranges.iter_mut().filter(|(_, steps)| steps.len() >= RECURRING) {
+            if steps.insert(length) {
+                encoder.demand_range(*link, length);
+            }
+        }
         for (lost, steps) in self.reach.iter_mut().filter(|(_, steps)| steps.len() >= RECURRING) {
             if steps.insert(length) {
                 encoder.demand_reach(length, lost);

@@ -75,7 +75,7 @@ impl Lemma {
                 let at = parallel.partition_point(|(offset, _)| *offset <= half_space.offset);
                 at.checked_sub(1).map(|at| parallel[at].1)
             }
-            Leaf::Apart(_) => None,
+            Leaf::Apart(_) | Leaf::Near(_) => None,
         };
         self.rows.iter().map(literal).collect()
     }
@@ -85,6 +85,7 @@ impl Lemma {
         let step = |row: &Row| match row.leaf {
             Leaf::HalfSpace { step, .. } => step,
             Leaf::Apart(face) => face.step,
+            Leaf::Near(near) => near.step,
         };
         let first = self.rows.iter().map(step).min()?;
         Some((first, self.rows.iter().map(step).max()?))

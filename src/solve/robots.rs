@@ -161,6 +161,10 @@ impl<'a> Robots<'a> {
             Leaf::Apart(face) => {
                 vec![self.node(face.first, face.axis), self.node(face.second, face.axis)]
             }
+            Leaf::Near(near) => {
+                let of = |(robot, _)| near.axes().map(move |axis| self.node(robot, axis));
+                near.robots().flat_map(of).collect()
+            }
         }
     }
 

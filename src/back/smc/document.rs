@@ -143,7 +143,7 @@ pub struct Cnf {
     pub clauses: Vec<Vec<i32>>,
 }
 
-/// Linear rows over real variables.
+/// Rows over real variables.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Convex {
@@ -165,10 +165,41 @@ pub struct Block {
     pub rows: Vec<Row>,
 }
 
+/// A linear row or a cone row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum Row {
+    /// A linear row.
+    Linear(Linear),
+    /// A row of a second-order cone.
+    Cone(Cone),
+}
+
+/// Sums whose Euclidean norm is at most a bound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Cone {
+    /// The sums.
+    pub norm: Vec<Sum>,
+    /// The bound.
+    pub bound: f64,
+}
+
+/// A sum of multiples of real variables and a constant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Sum {
+    /// Pairs of a real variable and its coefficient.
+    pub terms: Vec<(usize, f64)>,
+    /// The constant.
+    pub constant: f64,
+}
+
 /// A sum that equals a bound or is at most it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Row {
+pub struct Linear {
     /// Pairs of a real variable and its coefficient.
     pub terms: Vec<(usize, f64)>,
     /// How the sum compares with the bound.
@@ -200,6 +231,9 @@ pub struct Map {
     pub cells: Option<Vec<InCell>>,
     /// Two robots are apart along an axis, at a step and at the one after.
     pub faces: Vec<Face>,
+    /// With a range in the ∞-norm: two robots are near each other along a normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<Vec<Near>>,
     /// Where the loop goes back to.
     pub loops: Vec<Loop>,
     /// Links.
@@ -247,6 +281,22 @@ pub struct Face {
     /// 1 or −1.
     #[cfg_attr(test, schemars(extend("enum" = [1, -1])))]
     pub sign: i32,
+    /// The step.
+    pub step: usize,
+}
+
+/// normal · (first − second) is at most the offset; with one robot, normal · first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Near {
+    /// The literal.
+    pub literal: i32,
+    /// The robots' names, two or one.
+    pub robots: Vec<String>,
+    /// One number a coordinate of the workspace.
+    pub normal: Vec<f64>,
+    /// The offset in metres.
+    pub offset: f64,
     /// The step.
     pub step: usize,
 }

@@ -95,18 +95,25 @@ fn cnf(instance: &Instance) -> doc::Cnf {
 }
 
 fn convex(instance: &Instance, names: &Names<'_>) -> doc::Convex {
-    let row = |row: &encode::Row| doc::Row {
-        terms: row.terms.clone(),
-        relation: match row.relation {
-            Relation::Equal => doc::Relation::Equal,
-            Relation::AtMost => doc::Relation::AtMost,
-        },
-        bound: row.bound,
+    let row = |row: &encode::Row| {
+        doc::Row::Linear(doc::Linear {
+            terms: row.terms.clone(),
+            relation: match row.relation {
+                Relation::Equal => doc::Relation::Equal,
+                Relation::AtMost => doc::Relation::AtMost,
+            },
+            bound: row.bound,
+        })
+    };
+    let sum =
+        |(terms, constant): &(Vec<(usize, f64)>, f64)| doc::Sum { terms: terms.clone(), constant: *constant };
+    let cone = |cone: &encode::Cone| {
+        doc::Row::Cone(doc::Cone { norm: cone.sums.iter().map(sum).collect(), bound: cone.bound })
     };
     let block = |block: &encode::Block| doc::Block {
         name: block.name.clone(),
         literal: block.literal.map(encode::number),
-        rows: block.rows.iter().map(row).collect(),
+        rows: block.rows.iter().map(row).chain(block.cones.iter().map(cone)).collect(),
     };
     doc::Convex {
         variables: instance.convex.variables.iter().map(|v| names.variable(v)).collect(),
@@ -152,6 +159,13 @@ fn map(
                 axis: face.axis,
                 sign: if face.positive { 1 } else { -1 },
                 step: face.step,
+            }),
+            Meaning::Leaf(Leaf::Near(near)) => map.near.get_or_insert_default().push(doc::Near {
+                literal,
+                robots: near.robots().map(|(robot, _)| names.robot(robot).into()).collect(),
+                normal: near.normal[..problem.dimension].to_vec(),
+                offset: near.offset,
+                step: near.step,
             }),
         }
     }

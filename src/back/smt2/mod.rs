@@ -1,5 +1,5 @@
-//! `NAME.smt2`: the whole instance of one length in SMT-LIB 2, for any solver of linear real
-//! arithmetic.
+//! `NAME.smt2`: the whole instance of one length in SMT-LIB 2, for any solver of real arithmetic:
+//! linear, but for the cones of a Euclidean range.
 //!
 //! The file is satisfiable just when a plan of the length exists whose separating planes have the
 //! directions at hand. All numbers are exactly the doubles of the search, written as fractions, and
@@ -7,12 +7,12 @@
 
 mod read;
 
-pub use read::{Assertion, ReadError, Row as ReadRow, Script, read};
+pub use read::{Assertion, Cone as ReadCone, ReadError, Row as ReadRow, Script, read};
 
 use std::fmt::Write;
 
 use crate::back::{Artifact, Names, dyadic, file_name};
-use crate::encode::{self, Block, Instance, Relation, Row};
+use crate::encode::{self, Block, Cone, Instance, Relation, Row};
 use crate::ir::Problem;
 
 /// Writes the instance of a problem's length; the instance has one length, which is assumed.
@@ -45,11 +45,12 @@ fn header(problem: &Problem, instance: &Instance) -> String {
     format!(
         "; dosmc {}: mission {}, length {length}\n\
          ; b1 ... are the Boolean variables of {}.cnf, whose comments say what they stand for.\n\
-         (set-logic QF_LRA)\n\
+         (set-logic {})\n\
          (set-info :source |mission sha256 {}|)\n",
         env!("CARGO_PKG_VERSION"),
         problem.name,
         problem.name,
+        if instance.convex.blocks.iter().all(|b| b.cones.is_empty()) { "QF_LRA" } else { "QF_NRA" },
         problem.sha256,
     )
 }
@@ -61,8 +62,8 @@ fn literal(number: i32) -> String {
 /// Each row of a block as an assertion of its own.
 fn write_block(block: &Block, instance: &Instance, names: &Names<'_>, text: &mut String) {
     let _ = writeln!(text, "; {}", block.name);
-    for row in &block.rows {
-        let row = written(row, instance, names);
+    let rows = block.rows.iter().map(|row| written(row, instance, names));
+    for row in rows.chain(block.cones.iter().map(|cone| written_cone(cone, instance, names))) {
         let _ = match block.literal {
             None => writeln!(text, "(assert {row})"),
             Some(lit) => writeln!(text, "(assert (=> {} {row}))", literal(encode::number(lit))),
@@ -70,17 +71,35 @@ fn write_block(block: &Block, instance: &Instance, names: &Names<'_>, text: &mut
     }
 }
 
-fn written(row: &Row, instance: &Instance, names: &Names<'_>) -> String {
-    let term = |&(variable, coefficient): &(usize, f64)| {
-        let name = names.variable(&instance.convex.variables[variable]);
-        if coefficient == 1.0 { format!("|{name}|") } else { format!("(* {} |{name}|)", number(coefficient)) }
+/// Σ s² ≤ r², which has no root in it.
+fn written_cone(cone: &Cone, instance: &Instance, names: &Names<'_>) -> String {
+    let square = |(terms, constant): &(Vec<(usize, f64)>, f64)| {
+        let mut sum = terms.iter().map(|t| term(t, instance, names)).collect::<Vec<_>>();
+        sum.push(number(*constant));
+        let sum = added(&sum);
+        format!("(* {sum} {sum})")
     };
-    let terms: Vec<String> = row.terms.iter().map(term).collect();
-    let sum = match &terms[..] {
+    let squares: Vec<String> = cone.sums.iter().map(square).collect();
+    let bound = number(cone.bound);
+    format!("(<= {} (* {bound} {bound}))", added(&squares))
+}
+
+fn term(&(variable, coefficient): &(usize, f64), instance: &Instance, names: &Names<'_>) -> String {
+    let name = names.variable(&instance.convex.variables[variable]);
+    if coefficient == 1.0 { format!("|{name}|") } else { format!("(* {} |{name}|)", number(coefficient)) }
+}
+
+fn added(terms: &[String]) -> String {
+    match terms {
         [] => "0.0".into(),
         [only] => only.clone(),
         _ => format!("(+ {})", terms.join(" ")),
-    };
+    }
+}
+
+fn written(row: &Row, instance: &Instance, names: &Names<'_>) -> String {
+    let terms: Vec<String> = row.terms.iter().map(|t| term(t, instance, names)).collect();
+    let sum = added(&terms);
     let relation = match row.relation {
         Relation::Equal => "=",
         Relation::AtMost => "<=",

@@ -1,4 +1,4 @@
-//! A reader of the SMT-LIB that is written here: declarations, clauses and linear rows.
+//! A reader of the SMT-LIB that is written here: declarations, clauses, linear rows and cones.
 
 use std::fmt;
 
@@ -20,13 +20,24 @@ pub struct Script {
     pub assertions: Vec<Assertion>,
 }
 
-/// A clause that may end in a row: some literal is true, or the row holds.
+/// A clause that may end in a row: some literal is true, or the row holds, linear or of a cone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Assertion {
     /// Boolean constants, each with whether it stands unnegated.
     pub literals: Vec<(String, bool)>,
     /// The row, if there is one.
     pub row: Option<Row>,
+    /// The row of a cone, if there is one.
+    pub cone: Option<Cone>,
+}
+
+/// Σ sum² ≤ bound².
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cone {
+    /// The sums: terms, and a constant.
+    pub sums: Vec<(Vec<(Rational, String)>, Rational)>,
+    /// The bound.
+    pub bound: Rational,
 }
 
 /// Σ coefficient · constant ⋈ bound.
@@ -148,7 +159,8 @@ fn unquoted(name: &str) -> String {
 }
 
 fn assertion(term: &Expression<'_>) -> Result<Assertion, String> {
-    let clause = |literals: Result<Vec<_>, String>| Ok(Assertion { literals: literals?, row: None });
+    let clause =
+        |literals: Result<Vec<_>, String>| Ok(Assertion { literals: literals?, row: None, cone: None });
     match term {
         Symbol("false") => Ok(Assertion::default()),
         Symbol(_) => clause(literal(term).map(|l| vec![l])),
@@ -157,10 +169,58 @@ fn assertion(term: &Expression<'_>) -> Result<Assertion, String> {
             [Symbol("or"), literals @ ..] => clause(literals.iter().map(literal).collect()),
             [Symbol("=>"), condition, row] => {
                 let (name, sign) = literal(condition)?;
-                Ok(Assertion { literals: vec![(name, !sign)], row: Some(self::row(row)?) })
+                constraint(vec![(name, !sign)], row)
             }
-            _ => Ok(Assertion { literals: Vec::new(), row: Some(row(term)?) }),
+            _ => constraint(Vec::new(), term),
         },
+    }
+}
+
+/// A row under literals. That of a cone has a square on its right-hand side.
+fn constraint(literals: Vec<(String, bool)>, term: &Expression<'_>) -> Result<Assertion, String> {
+    let cone = match term {
+        List(items) => {
+            matches!(items.last(), Some(List(square)) if matches!(square[..], [Symbol("*"), _, _]))
+        }
+        Symbol(_) => false,
+    };
+    if cone {
+        Ok(Assertion { literals, row: None, cone: Some(self::cone(term)?) })
+    } else {
+        Ok(Assertion { literals, row: Some(row(term)?), cone: None })
+    }
+}
+
+fn cone(term: &Expression<'_>) -> Result<Cone, String> {
+    let List(items) = term else { return Err("a cone is a list".into()) };
+    let [Symbol("<="), List(squares), List(bound)] = &items[..] else {
+        return Err("a cone compares squares by <=".into());
+    };
+    let (Some(Symbol("+")), [Symbol("*"), bound, again]) = (squares.first(), &bound[..]) else {
+        return Err("a cone compares added squares with a square".into());
+    };
+    let bound = (number(bound)?, number(again)?);
+    if bound.0 != bound.1 {
+        return Err("a bound is multiplied by itself".into());
+    }
+    Ok(Cone { sums: squares[1..].iter().map(square).collect::<Result<_, _>>()?, bound: bound.0 })
+}
+
+fn square(term: &Expression<'_>) -> Result<(Vec<(Rational, String)>, Rational), String> {
+    let List(items) = term else { return Err("a square is a list".into()) };
+    let [Symbol("*"), sum, again] = &items[..] else { return Err("a square is a product".into()) };
+    let sums = (affine(sum)?, affine(again)?);
+    if sums.0 == sums.1 { Ok(sums.0) } else { Err("a sum is multiplied by itself".into()) }
+}
+
+/// Terms with a constant behind them.
+fn affine(term: &Expression<'_>) -> Result<(Vec<(Rational, String)>, Rational), String> {
+    match term {
+        List(items) if matches!(items.first(), Some(Symbol("+"))) => {
+            let (constant, terms) = items[1..].split_last().ok_or("an empty sum")?;
+            Ok((terms.iter().map(product).collect::<Result<_, _>>()?, number(constant)?))
+        }
+        _ => Err("a sum ends in a constant".into()),
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use rustsat::types::Lit;
 
 use crate::abstraction::{Abstraction, DirectionId};
-use crate::encode::{Face, Leaf};
+use crate::encode::{Face, Leaf, Near};
 use crate::ir::RobotId;
 
 use super::certificate::{Conflict, Functional, Lasso, Part, Proof, Term};
@@ -41,6 +41,7 @@ enum Key {
     Direction(RobotId, usize, DirectionId),
     Mixed(RobotId, usize, usize),
     Apart(RobotId, RobotId, usize, usize),
+    Near(RobotId, Option<RobotId>, usize, [u64; 3]),
     Loop(RobotId, usize, usize),
 }
 
@@ -273,6 +274,15 @@ impl<'a> Program<'a> {
                 let at = |robot: RobotId| self.members[self.member(robot)].system.position[axis];
                 vec![unit(first, step, at(first), 1.0), unit(second, step, at(second), -1.0)]
             }
+            Key::Near(first, second, step, normal) => {
+                let near = Near { first, second, step, normal: normal.map(f64::from_bits), offset: 0.0 };
+                let of = |(robot, sign): (RobotId, f64)| {
+                    let position = &self.members[self.member(robot)].system.position;
+                    let state = near.axes().map(|axis| (position[axis], sign * near.normal[axis]));
+                    Part { robot, step, state: state.collect(), input: Vec::new() }
+                };
+                near.robots().map(of).collect()
+            }
             Key::Loop(robot, back, s) => {
                 vec![unit(robot, self.length + 1, s, 1.0), unit(robot, back, s, -1.0)]
             }
@@ -359,6 +369,14 @@ impl<'a> Program<'a> {
                         let key = Key::Apart(face.first, face.second, step, face.axis);
                         self.tighten(key, !face.positive, offset, at);
                     }
+                }
+                Leaf::Near(near) => {
+                    // Opposite normals share a form.
+                    let flipped = near.axes().next().is_some_and(|axis| near.normal[axis] < 0.0);
+                    let sign = if flipped { -1.0 } else { 1.0 };
+                    let normal = near.normal.map(|x| (sign * x + 0.0).to_bits());
+                    let key = Key::Near(near.first, near.second, near.step, normal);
+                    self.tighten(key, !flipped, sign * near.offset, at);
                 }
             }
         }
