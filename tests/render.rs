@@ -181,6 +181,34 @@ fn the_picture_in_the_readme_is_up_to_date() {
     assert!(kept == drawn, "docs/fig2.svg is not what is drawn today; DOSMC_UPDATE=1 draws it anew");
 }
 
+/// Each example has its picture in `docs/pictures`, as it is drawn today; the same variable draws them
+/// anew.
+#[test]
+fn the_pictures_of_the_examples_are_up_to_date() {
+    let directory = common::package("docs/pictures");
+    let update = std::env::var_os("DOSMC_UPDATE").is_some();
+    let mut stale = Vec::new();
+    let mut names = Vec::new();
+    for mission in common::missions("examples") {
+        let stem = mission.file_stem().expect("a name").to_string_lossy().into_owned();
+        let (problem, plan) = planned(&format!("examples/{stem}.dosm"));
+        let drawn = svg::draw(&problem, &plan, &Options::default()).contents;
+        let name = format!("{stem}.svg");
+        if update {
+            fs::write(directory.join(&name), &drawn).expect("it can be written");
+        }
+        if fs::read_to_string(directory.join(&name)).ok().as_deref() != Some(drawn.as_str()) {
+            stale.push(name.clone());
+        }
+        names.push(name);
+    }
+    assert!(stale.is_empty(), "not what is drawn today: {stale:?}; DOSMC_UPDATE=1 draws them anew");
+    for entry in fs::read_dir(directory).expect("a directory") {
+        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+        assert!(names.contains(&name), "{name} is the picture of no example");
+    }
+}
+
 static RELAYED: LazyLock<(Problem, Plan)> = LazyLock::new(|| planned(RELAY));
 
 /// The relay with other names.

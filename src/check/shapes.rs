@@ -11,6 +11,7 @@ use crate::quantity::{Dimension, in_range};
 use crate::source::Span;
 use crate::syntax::ast::{
     Comparison, Coordinate, FamilyName, Inequality, Item, ItemKind, Norm, Piece, PieceKind, Point, Shape,
+    State,
 };
 
 /// The most corners of a polygon, points of a hull or half-spaces of a `where`.
@@ -42,7 +43,12 @@ impl Checker<'_> {
             first = Some(item);
             self.workspace = Some(self.workspace_shape(shape, item.span));
         }
-        if first.is_none() && !file.has_broken_keyword("workspace") {
+        if first.is_some() {
+            return;
+        }
+        // Not each point shall be wrong only because the workspace could not be read.
+        self.dimension = guessed_dimension(&file.items);
+        if !file.has_broken_keyword("workspace") {
             self.report(messages::missing_workspace(file.span));
         }
     }
@@ -386,6 +392,21 @@ fn cube(center: &[Rational], spread: &[Rational], radius: &Rational) -> Polytope
 
 fn moved(point: &[Rational], axis: usize, by: &Rational) -> Vec<Rational> {
     point.iter().enumerate().map(|(i, x)| if i == axis { x + by } else { x.clone() }).collect()
+}
+
+/// The dimension that the bases, robots and blockers of a mission without a workspace speak of.
+fn guessed_dimension(items: &[Item]) -> usize {
+    let of_shape = |shape: &Shape| shape.pieces.iter().find_map(points_dimension);
+    let dimension = |item: &Item| match &item.kind {
+        ItemKind::Base { at, .. } | ItemKind::Robot { at: State::Position(at), .. } => {
+            Some(at.coordinates.len())
+        }
+        ItemKind::Region { shape, .. }
+        | ItemKind::Obstacle { shape, .. }
+        | ItemKind::Jammer { shape, .. } => of_shape(shape),
+        _ => None,
+    };
+    items.iter().find_map(dimension).map_or(2, |count| if count == 3 { 3 } else { 2 })
 }
 
 /// How many coordinates the points of a piece have; `None` when it has no points.

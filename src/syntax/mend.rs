@@ -200,7 +200,7 @@ impl Case<'_> {
         // `5 feet` is not meant to begin with `let`.
         let unlike = near.as_ref().is_none_or(|near| 3 * distance(self.found, near) > self.found.len());
         if unlike && number_before && self.failure.expects(Rule::unit) {
-            return Some(format!("the units are {}", UNITS.join(", ")));
+            return Some(format!("the units are {}; products are written with `*`", UNITS.join(", ")));
         }
         if near.is_none() && [Rule::shape, Rule::piece].iter().any(|r| self.failure.expects(*r)) {
             return Some("the shapes are `box`, `ball`, `disc`, `polygon`, `hull` and `where`".to_owned());
