@@ -22,7 +22,7 @@ fn solved(path: &Path) -> (Problem, Plan) {
     solved_text(&path.to_string_lossy(), &std::fs::read_to_string(path).unwrap())
 }
 
-fn solved_text(name: &str, text: &str) -> (Problem, Plan) {
+pub fn solved_text(name: &str, text: &str) -> (Problem, Plan) {
     let source = SourceFile::new(name, text);
     let mission = load(&source, &Overrides::default(), &mut Diagnostics::default()).expect("no errors");
     let watch: Arc<dyn Watch> = Arc::new(Patient);

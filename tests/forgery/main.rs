@@ -7,6 +7,8 @@ mod common;
 mod flights;
 mod forge;
 mod links;
+mod nets;
 mod sampling;
 mod scene;
+mod sharp;
 mod threats;

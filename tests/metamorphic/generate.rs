@@ -97,12 +97,12 @@ impl Generator {
             return None;
         }
         let hops = self.chance.percent(30).then(|| 1 + self.chance.below(robots));
-        let range = self.chance.percent(extra(25)).then(|| {
+        let range = self.chance.percent(25).then(|| {
             let norm = *self.chance.pick(&[0, 2]);
             (self.metres(6000, 11000), norm)
         });
-        let redundancy = usize::from(robots > 1 && self.chance.percent(extra(15)));
-        let every = if self.chance.percent(extra(20)) { 2 + self.chance.below(2) } else { 1 };
+        let redundancy = usize::from(robots > 1 && self.chance.percent(15));
+        let every = if self.chance.percent(20) { 2 + self.chance.below(2) } else { 1 };
         Some(Links { hops, range, redundancy, every })
     }
 
@@ -357,9 +357,4 @@ impl Generator {
         let op = *self.chance.pick(&[">=", "<=", "=", "!=", "<", ">"]);
         Formula::Compare(terms, op, self.chance.between(0, robots as i64 - 1))
     }
-}
-
-/// So many of a hundred, for what `connectivity` asks beyond hops.
-fn extra(percent: usize) -> usize {
-    if crate::EXTRA_CONNECTIVITY { percent } else { 0 }
 }

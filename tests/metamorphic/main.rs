@@ -16,6 +16,3 @@ mod laws;
 mod luck;
 mod motion;
 mod verdict;
-
-/// Whether random missions use `range`, `redundancy` and `every`.
-const EXTRA_CONNECTIVITY: bool = false;

@@ -10,6 +10,10 @@ use nalgebra::DMatrix;
 /// How far a form may be outside its bounds; the search moves all bounds inwards by far more.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// How far a form may be from the only value that it may have. Nothing is moved inwards there: what
+/// a loop does not close is a disturbance, of which a tube has room for 1e-9 of a state's extent.
+const EXACTNESS: f64 = TOLERANCE / 16.0;
+
 /// Entries of a row below this share of its largest one (or of 1) are not pivoted on: they may be
 /// rounding, and the tableau grows by their inverse.
 const PIVOT: f64 = 1e-7;
@@ -198,7 +202,8 @@ impl Simplex {
             let value = self.value[variable];
             let (below, above) = (self.lower[variable] - value, value - self.upper[variable]);
             let by = below.max(above);
-            if by <= TOLERANCE {
+            let fixed = self.lower[variable] == self.upper[variable];
+            if by <= if fixed { EXACTNESS } else { TOLERANCE } {
                 continue;
             }
             let better = match best {
