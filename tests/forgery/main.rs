@@ -12,3 +12,4 @@ mod sampling;
 mod scene;
 mod sharp;
 mod threats;
+mod words;

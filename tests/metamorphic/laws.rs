@@ -295,7 +295,7 @@ fn with_relaxed_settings() {
         match (&mut image.links, chance.percent(50)) {
             (Some(Links { range: Some((range, _)), .. }), true) => *range += ONE,
             (Some(Links { hops: Some(hops), .. }), true) => *hops += 1,
-            (links @ Some(_), false) => *links = Some(Links { every: 1, ..Links::default() }),
+            (Some(links), false) => *links = Links { every: 2 * links.every, ..Links::default() },
             _ => image.separation = image.separation.map(|s| s / 16 * 8),
         }
         Some(image)
