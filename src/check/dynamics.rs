@@ -30,6 +30,7 @@ struct Items<'i> {
     c: Option<(&'i DynamicsItem, &'i Expr)>,
     integrator: Option<(&'i DynamicsItem, &'i Expr)>,
     rejection: Option<(&'i DynamicsItem, &'i Expr)>,
+    mode: Option<&'i DynamicsItem>,
     continuous: Option<&'i DynamicsItem>,
 }
 
@@ -119,6 +120,7 @@ impl Checker<'_> {
                 DynamicsKind::Continuous => items.continuous.replace(item),
                 DynamicsKind::Mode { .. } => {
                     complete = Err(self.report(messages::unsupported("a `mode`", item.span)));
+                    items.mode = Some(item);
                     None
                 }
             };
@@ -161,12 +163,16 @@ impl Checker<'_> {
             (items.state_item.is_none(), "`state`"),
             (items.input_item.is_none(), "`input`"),
             (items.position.is_none(), "`position`"),
-            (items.a.is_none(), "`A`"),
-            (items.b.is_none(), "`B`"),
+            (items.a.is_none() && items.mode.is_none(), "`A`"),
+            (items.b.is_none() && items.mode.is_none(), "`B`"),
         ] {
             missing.extend(absent.then_some(what));
         }
         let (Some((position_item, position)), Some(a), Some(b)) = (items.position, items.a, items.b) else {
+            if missing.is_empty() {
+                // Modes have matrices of their own; that there are modes has been reported.
+                return Err(self.reported(|| messages::missing_items(name, &["`A`", "`B`"])));
+            }
             return Err(self.report(messages::missing_items(name, &missing)));
         };
         if !missing.is_empty() {
