@@ -1,14 +1,13 @@
 //! Axes with round numbers, and a scale bar.
 
-use super::canvas::{Canvas, px, unsigned_zero};
+use super::canvas::{Canvas, View, px, unsigned_zero};
 use super::labels::{Places, Rect};
 use super::layout::{Layout, SMALL};
 use super::text;
 
 /// Draws the grid behind everything.
-pub fn grid(canvas: &mut Canvas, layout: &Layout) {
-    let (view, [w, h]) = (&layout.main, layout.main.size);
-    let (x, y) = view.corner;
+pub fn grid(canvas: &mut Canvas, view: &View) {
+    let ((x, y), [w, h]) = (view.corner, view.size);
     let mut lines = String::new();
     for (value, _) in ticks(view.low[0], w / view.scale, w) {
         lines += &format!("M{} {}v{}", px(view.pixel([value, 0.0]).0), px(y), px(h));
@@ -19,9 +18,9 @@ pub fn grid(canvas: &mut Canvas, layout: &Layout) {
     canvas.path("grid", &lines);
 }
 
-/// Draws tick marks, numbers, what is along the axes, and the scale bar; all of them keep labels off.
-pub fn draw(canvas: &mut Canvas, layout: &Layout, spatial: bool, places: &mut Places) {
-    let (view, [w, h]) = (&layout.main, layout.main.size);
+/// Draws tick marks and numbers; all of them keep labels off.
+pub fn marks(canvas: &mut Canvas, view: &View, places: &mut Places) {
+    let [w, h] = view.size;
     let (x, bottom) = (view.corner.0, view.corner.1 + h);
     // The edges, for a workspace that does not reach all of them.
     let mut marks = format!("M{} {}v{}h{}", px(x), px(view.corner.1), px(h), px(w));
@@ -36,28 +35,38 @@ pub fn draw(canvas: &mut Canvas, layout: &Layout, spatial: bool, places: &mut Pl
         small(canvas, places, (x - 9.0, at + 4.5), "tick end", &number, -1.0);
     }
     canvas.path("tickmark", &marks);
-    let row = bottom + layout.air[1] + 40.0;
-    let axes = if spatial { "x, y in metres; z is not shown" } else { "x, y in metres" };
-    small(canvas, places, (x, row), "tick", axes, 0.0);
-    scale_bar(canvas, layout, places, row);
+}
+
+/// Draws tick marks, numbers, what is along the axes, and the scale bar; all of them keep labels off.
+pub fn draw(canvas: &mut Canvas, layout: &Layout, places: &mut Places) {
+    marks(canvas, &layout.main, places);
+    let row = layout.main.corner.1 + layout.main.size[1] + layout.air[1] + 40.0;
+    small(canvas, places, (layout.main.corner.0, row), "tick", "x, y in metres", 0.0);
+    scale_bar(canvas, &layout.main, places, row);
 }
 
 /// Draws a small text that keeps labels off; `shift` says how much of its width lies left of it.
-fn small(canvas: &mut Canvas, places: &mut Places, at: (f64, f64), class: &str, contents: &str, shift: f64) {
+pub fn small(
+    canvas: &mut Canvas,
+    places: &mut Places,
+    at: (f64, f64),
+    class: &str,
+    contents: &str,
+    shift: f64,
+) {
     let width = text::width(contents, SMALL, false);
     places.block(Rect { x: at.0 + shift * width, y: at.1 - SMALL, w: width, h: SMALL + 4.0 });
     canvas.text(at, class, contents);
 }
 
 /// A bar with the length of one or more ticks, at the right below the panel.
-fn scale_bar(canvas: &mut Canvas, layout: &Layout, places: &mut Places, row: f64) {
-    let longer = layout.main.size[0].max(layout.main.size[1]) / layout.main.scale;
+pub fn scale_bar(canvas: &mut Canvas, view: &View, places: &mut Places, row: f64) {
+    let longer = view.size[0].max(view.size[1]) / view.scale;
     let Some((metres, decimals)) = step(longer / 6.0) else { return };
-    let length = metres * layout.main.scale;
+    let length = metres * view.scale;
     let number = format!("{} m", number(metres, decimals));
     let width = text::width(&number, SMALL, false);
-    let right =
-        (layout.main.corner.0 + layout.main.size[0]).max(layout.main.corner.0 + 215.0 + length + width);
+    let right = (view.corner.0 + view.size[0]).max(view.corner.0 + 215.0 + length + width);
     let left = right - length;
     let y = row - 4.5;
     canvas.path("bar", &format!("M{} {}v8m0 -4h{}m0 -4v8", px(left), px(y - 4.0), px(length)));
@@ -66,7 +75,7 @@ fn scale_bar(canvas: &mut Canvas, layout: &Layout, places: &mut Places, row: f64
 }
 
 /// Round numbers that cover a range drawn that long: each value with its text.
-fn ticks(low: f64, extent: f64, pixels: f64) -> Vec<(f64, String)> {
+pub fn ticks(low: f64, extent: f64, pixels: f64) -> Vec<(f64, String)> {
     // One tick in 80 pixels or so, at least two.
     let Some((step, decimals)) = step(extent / (pixels / 80.0).clamp(2.0, 8.0)) else { return Vec::new() };
     // A hair of slack, so that rounding does not lose a tick on the edge.

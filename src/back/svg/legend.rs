@@ -41,6 +41,8 @@ enum Swatch {
     Tube,
     /// A link.
     Link,
+    /// A shadow.
+    Shadow,
     /// A base station.
     Base,
     /// A box with a class.
@@ -56,6 +58,8 @@ pub struct Extras {
     pub links: bool,
     /// The cells of a partition.
     pub cells: bool,
+    /// Shadows on the floor, in space.
+    pub space: bool,
 }
 
 /// Draws the legend, and says where it ends.
@@ -63,7 +67,7 @@ pub fn draw(canvas: &mut Canvas, layout: &Layout, scene: &Scene, extras: Extras)
     let (left, top) = layout.legend;
     let room = layout.legend_width;
     let mut y = top;
-    let marks = [moving(scene, extras.links), still(scene, extras.cells)].into_iter().flatten().collect();
+    let marks = [moving(scene, extras), still(scene, extras.cells)].into_iter().flatten().collect();
     for entries in [robots(scene), marks] {
         let mut x = left;
         for entry in &entries {
@@ -99,7 +103,7 @@ fn robots(scene: &Scene) -> Vec<Entry> {
 }
 
 /// What the ways are drawn with.
-fn moving(scene: &Scene, with_links: bool) -> Vec<Entry> {
+fn moving(scene: &Scene, extras: Extras) -> Vec<Entry> {
     let mut entries = Vec::new();
     let mut add = |swatch, text: &str| entries.push(Entry { text: text.into(), swatch });
     add(Swatch::Start, "start");
@@ -113,8 +117,11 @@ fn moving(scene: &Scene, with_links: bool) -> Vec<Entry> {
         add(Swatch::Ring, "the loop begins");
     }
     add(Swatch::Tube, "where it can be");
-    if with_links {
+    if extras.links {
         add(Swatch::Link, "radio link");
+    }
+    if extras.space {
+        add(Swatch::Shadow, "its shadow on the floor");
     }
     entries
 }
@@ -197,6 +204,7 @@ fn swatch(canvas: &mut Canvas, (x, y): Pixel, swatch: &Swatch) {
             canvas.add(&format!(r#"<g class="beam"><path d="{}"/></g>"#, boxed(x, y, SWATCH, 14.0)));
             canvas.path("link", &line);
         }
+        Swatch::Shadow => canvas.path("shadow", &line),
         Swatch::Base => canvas.path("base", &mark::mast(middle, mark::MAST)),
         Swatch::Box(class) => canvas.path(class, &boxed(x, y, SWATCH, 16.0)),
         Swatch::Grown(class) => {

@@ -1,11 +1,12 @@
-//! Convex outlines in the plane: what sets of positions look like from above, in metres.
+//! Convex outlines in the plane: what sets of positions look like in a projection, in metres.
 
+use super::projection::Projection;
 use super::section::Section;
 use crate::exact::Rational;
 use crate::geometry::{HalfSpace, Polytope};
 use crate::ir::Piece;
 
-/// A point seen from above, in metres.
+/// A point of a projection, in metres.
 pub type Point = [f64; 2];
 
 /// How many corners stand for an outline made of arcs.
@@ -33,21 +34,20 @@ impl Outline {
         Outline { corners: lower.into_iter().chain(upper).collect(), radius: 0.0 }
     }
 
-    /// A piece seen from above.
-    pub fn of(piece: &Piece) -> Outline {
+    /// A piece in a projection.
+    pub fn of(piece: &Piece, projection: &Projection) -> Outline {
         match piece {
-            Piece::Polytope(polytope) => Outline::of_polytope(polytope),
+            Piece::Polytope(polytope) => Outline::of_polytope(polytope, projection),
             Piece::Ball { center, spread, radius } => {
-                let (center, spread) = (from_above(center), from_above(spread));
-                let corners = corners_of_box(&center, &spread);
+                let corners = box_around(center, spread).iter().map(|p| projection.flat(p)).collect();
                 Outline { radius: radius.to_f64(), ..Outline::hull(corners) }
             }
         }
     }
 
-    /// A polytope seen from above.
-    pub fn of_polytope(polytope: &Polytope) -> Outline {
-        Outline::hull(polytope.vertices.iter().map(|v| from_above(v)).collect())
+    /// A polytope in a projection.
+    pub fn of_polytope(polytope: &Polytope, projection: &Projection) -> Outline {
+        Outline::hull(polytope.vertices.iter().map(|v| projection.of(v)).collect())
     }
 
     /// The Minkowski sum of two outlines.
@@ -80,7 +80,9 @@ impl Outline {
 
 /// What is left of a piece for the nominal position when the whole section around it must stay in:
 /// piece ⊖ Ω. `None` when that is nothing.
-pub fn shrunk(piece: &Piece, section: &Section) -> Option<Outline> {
+///
+/// For a ball in space, the slice through its middle; none in the axonometric projection.
+pub fn shrunk(piece: &Piece, section: &Section, projection: &Projection) -> Option<Outline> {
     match piece {
         Piece::Polytope(polytope) => {
             let moved = |facet: &HalfSpace| {
@@ -89,19 +91,25 @@ pub fn shrunk(piece: &Piece, section: &Section) -> Option<Outline> {
                 Some(HalfSpace { normal: facet.normal.clone(), offset })
             };
             let facets: Option<Vec<HalfSpace>> = polytope.facets.iter().map(moved).collect();
-            Some(Outline::of_polytope(&Polytope::from_half_spaces(&facets?).ok()?))
+            Some(Outline::of_polytope(&Polytope::from_half_spaces(&facets?).ok()?, projection))
         }
         Piece::Ball { center, spread, radius } => {
             let numbers = |v: &[Rational]| v.iter().map(Rational::to_f64).collect::<Vec<_>>();
-            shrunk_ball(&numbers(center), &numbers(spread), radius.to_f64(), section)
+            shrunk_ball(&numbers(center), &numbers(spread), radius.to_f64(), section, projection.axes()?)
         }
     }
 }
 
 /// The intersection of all balls around center ± spread − e for e in the section, by its distance
-/// from its middle in all directions. In space: the slice at the height of the middle, with the box
-/// around the section.
-fn shrunk_ball(center: &[f64], spread: &[f64], radius: f64, section: &Section) -> Option<Outline> {
+/// from its middle in all directions. In space: the slice along two axes through the middle, with the
+/// box around the section.
+fn shrunk_ball(
+    center: &[f64],
+    spread: &[f64],
+    radius: f64,
+    section: &Section,
+    [a, b]: [usize; 2],
+) -> Option<Outline> {
     let middle: Vec<f64> = center.iter().zip(&section.center).map(|(c, e)| c - e).collect();
     let off_middle = |error: &[f64], axis: usize| {
         error.get(axis).copied().unwrap_or(0.0) - section.center.get(axis).copied().unwrap_or(0.0)
@@ -109,9 +117,11 @@ fn shrunk_ball(center: &[f64], spread: &[f64], radius: f64, section: &Section) -
     let spread_at = |axis: usize| spread.get(axis).copied().unwrap_or(0.0);
     let mut discs: Vec<(Point, f64)> = Vec::new();
     for error in section.corners() {
-        let height = off_middle(&error, 2).abs() + spread_at(2);
-        let around = [-off_middle(&error, 0), -off_middle(&error, 1)];
-        for q in corners_of_box(&around, &[spread_at(0), spread_at(1)]) {
+        // The third axis is what a and b leave of 0 + 1 + 2.
+        let across = 3 - a - b;
+        let height = off_middle(&error, across).abs() + spread_at(across);
+        let around = [-off_middle(&error, a), -off_middle(&error, b)];
+        for q in corners_of_box(&around, &[spread_at(a), spread_at(b)]) {
             discs.push((q, radius * radius - height * height));
         }
     }
@@ -127,7 +137,7 @@ fn shrunk_ball(center: &[f64], spread: &[f64], radius: f64, section: &Section) -
     let corner = |i: usize| {
         let angle = std::f64::consts::TAU * i as f64 / ARC_CORNERS as f64;
         let r = reach(angle);
-        (r > 0.0).then(|| [middle[0] + r * angle.cos(), middle[1] + r * angle.sin()])
+        (r > 0.0).then(|| [middle[a] + r * angle.cos(), middle[b] + r * angle.sin()])
     };
     let corners: Option<Vec<Point>> = (0..ARC_CORNERS).map(corner).collect();
     Some(Outline { corners: corners?, radius: 0.0 })
@@ -140,9 +150,16 @@ fn corners_of_box(center: &Point, half: &Point) -> Vec<Point> {
         .to_vec()
 }
 
-/// The first two coordinates as doubles.
-pub fn from_above(coordinates: &[Rational]) -> Point {
-    [0, 1].map(|axis| coordinates.get(axis).map_or(0.0, Rational::to_f64))
+/// The corners of a box of two or three dimensions, doubled ones included.
+fn box_around(center: &[Rational], half: &[Rational]) -> Vec<Vec<f64>> {
+    let corner = |bits: usize| {
+        let along = |(axis, (c, h)): (usize, (&Rational, &Rational))| {
+            let (c, h) = (c.to_f64(), h.to_f64());
+            if bits >> axis & 1 == 1 { c + h } else { c - h }
+        };
+        center.iter().zip(half).enumerate().map(along).collect()
+    };
+    (0..1 << center.len()).map(corner).collect()
 }
 
 /// One side of the hull of sorted points, its last point left out (Andrew's monotone chain).
@@ -194,7 +211,7 @@ mod tests {
     #[test]
     fn a_shrunk_disc_is_as_large_as_it_can_be() {
         for spread in [[0.0, 0.0], [0.0, 0.2], [0.1, 0.0]] {
-            let left = shrunk(&disc(spread), &section()).expect("something is left");
+            let left = shrunk(&disc(spread), &section(), &Projection::TOP).expect("something is left");
             assert_eq!(left.corners.len(), ARC_CORNERS);
             for corner in &left.corners {
                 assert!((farthest(*corner, spread) - 1.0).abs() < 1e-9, "{corner:?} {spread:?}");
@@ -205,9 +222,9 @@ mod tests {
     #[test]
     fn nothing_is_left_of_what_is_smaller_than_the_tube() {
         let wide = Section { center: vec![0.0, 0.0], generators: vec![vec![0.8, 0.0], vec![0.0, 0.8]] };
-        assert_eq!(shrunk(&disc([0.0, 0.0]), &wide), None);
+        assert_eq!(shrunk(&disc([0.0, 0.0]), &wide, &Projection::TOP), None);
         let square = Piece::Polytope(Polytope::from_box(&numbers(&[0.0, 0.0]), &numbers(&[1.5, 1.5])));
-        assert_eq!(shrunk(&square, &wide), None);
+        assert_eq!(shrunk(&square, &wide, &Projection::TOP), None);
     }
 
     #[test]
@@ -216,7 +233,7 @@ mod tests {
             center: vec![0.0, 0.0],
             generators: vec![vec![1.0, 0.0], vec![0.0, 1.0], vec![1.0, 1.0]],
         };
-        let outline = section.outline();
+        let outline = section.outline(&Projection::TOP);
         assert_eq!(
             outline.corners,
             [[-2.0, -2.0], [0.0, -2.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [-2.0, 0.0]]

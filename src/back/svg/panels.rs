@@ -5,6 +5,7 @@ use super::layout::{CAPTION, FONT, Layout, SMALL};
 use super::mark;
 use super::moments::Moment;
 use super::scene::Scene;
+use super::solids;
 use super::stills;
 use super::text;
 use super::ways::MARK;
@@ -34,7 +35,13 @@ fn caption(what: &[String], room: f64) -> String {
 
 fn panel(canvas: &mut Canvas, view: &View, scene: &Scene, step: usize) {
     canvas.add(&format!("<svg class=\"small\" {}>", view.window()));
-    stills::draw(canvas, view, scene, false);
+    match scene.projection.axes() {
+        Some(_) => stills::draw(canvas, view, scene, false),
+        None => {
+            solids::room(canvas, view, scene.problem, &scene.projection, false);
+            solids::draw(canvas, view, scene.problem, &scene.projection);
+        }
+    }
     for (index, robot) in scene.robots.iter().enumerate() {
         let so_far = &robot.points[..(step + 1).min(robot.points.len())];
         let color = mark::color(index);
@@ -53,7 +60,10 @@ fn panel(canvas: &mut Canvas, view: &View, scene: &Scene, step: usize) {
         canvas.add("</g>");
     }
     canvas.add("</svg>");
-    stills::frame(canvas, view, scene);
+    match scene.projection.axes() {
+        Some(_) => stills::frame(canvas, view, scene),
+        None => solids::room(canvas, view, scene.problem, &scene.projection, true),
+    }
 }
 
 /// Draws the links of a step: where each can be, and the line between the nominal positions.

@@ -1,6 +1,7 @@
-//! What there is to draw, in metres: a problem and its plan seen from above.
+//! What there is to draw, in metres: a problem and its plan in a projection.
 
-use super::outline::{Outline, Point, from_above, shrunk};
+use super::outline::{Outline, Point, shrunk};
+use super::projection::Projection;
 use super::section::Section;
 use crate::ir::{BlockerKind, Piece, Problem, Shape};
 use crate::plan::{Label, Plan};
@@ -11,6 +12,8 @@ pub struct Scene<'a> {
     pub problem: &'a Problem,
     /// The plan.
     pub plan: &'a Plan,
+    /// How it is looked at.
+    pub projection: Projection,
     /// The workspace.
     pub workspace: Outline,
     /// The regions, with their copies shrunk by each tube.
@@ -41,7 +44,7 @@ pub struct Mover<'a> {
     pub name: &'a str,
     /// The nominal position at each step, all coordinates.
     pub positions: Vec<Vec<f64>>,
-    /// The same seen from above.
+    /// Where these are drawn.
     pub points: Vec<Point>,
     /// Where it can be around its nominal position.
     pub tube: Outline,
@@ -49,28 +52,32 @@ pub struct Mover<'a> {
 
 impl<'a> Scene<'a> {
     /// The scene of a plan, which need not fit its problem.
-    pub fn new(problem: &'a Problem, plan: &'a Plan) -> Scene<'a> {
+    ///
+    /// In the axonometric projection there are no copies: they would hide everything else.
+    pub fn new(problem: &'a Problem, plan: &'a Plan, projection: Projection) -> Scene<'a> {
         let sections = sections(problem, plan);
-        let mirrors: Vec<Outline> = sections.iter().map(|(_, s)| s.mirrored()).collect();
+        let shown = if projection.axes().is_some() { &sections[..] } else { &[] };
+        let mirrors: Vec<Outline> = shown.iter().map(|(_, s)| s.mirrored(&projection)).collect();
         let region = |name: &'a str, shape: &Shape| {
             let copy = |(_, section): &(&str, Section)| {
-                shape.pieces.iter().filter_map(|piece| shrunk(piece, section)).collect()
+                shape.pieces.iter().filter_map(|piece| shrunk(piece, section, &projection)).collect()
             };
-            Still { name, pieces: outlines(shape), copies: sections.iter().map(copy).collect() }
+            Still { name, pieces: outlines(shape, &projection), copies: shown.iter().map(copy).collect() }
         };
         let blocker = |name: &'a str, shape: &Shape| {
-            let pieces = outlines(shape);
+            let pieces = outlines(shape, &projection);
             let copies = mirrors.iter().map(|m| pieces.iter().map(|p| p.plus(m)).collect()).collect();
             Still { name, pieces, copies }
         };
         Scene {
             problem,
             plan,
-            workspace: Outline::of_polytope(&problem.workspace),
+            projection,
+            workspace: Outline::of_polytope(&problem.workspace, &projection),
             regions: problem.regions.values().map(|r| region(&r.name, &r.shape)).collect(),
             blockers: problem.blockers.values().map(|b| (b.kind, blocker(&b.name, &b.shape))).collect(),
-            bases: problem.bases.values().map(|b| (b.name.as_str(), from_above(&b.position))).collect(),
-            robots: movers(problem, plan),
+            bases: problem.bases.values().map(|b| (b.name.as_str(), projection.of(&b.position))).collect(),
+            robots: movers(problem, plan, &projection),
             tubes: sections.iter().map(|(name, _)| *name).collect(),
         }
     }
@@ -117,8 +124,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-fn outlines(shape: &Shape) -> Vec<Outline> {
-    shape.pieces.iter().map(|piece: &Piece| Outline::of(piece)).collect()
+fn outlines(shape: &Shape, projection: &Projection) -> Vec<Outline> {
+    shape.pieces.iter().map(|piece: &Piece| Outline::of(piece, projection)).collect()
 }
 
 /// The tubes' sections that differ, each with the name of the first model that has it.
@@ -134,7 +141,7 @@ fn sections<'a>(problem: &'a Problem, plan: &Plan) -> Vec<(&'a str, Section)> {
     all
 }
 
-fn movers<'a>(problem: &Problem, plan: &'a Plan) -> Vec<Mover<'a>> {
+fn movers<'a>(problem: &Problem, plan: &'a Plan, projection: &Projection) -> Vec<Mover<'a>> {
     let still = Outline { corners: vec![[0.0, 0.0]], radius: 0.0 };
     let mover = |robot: &'a crate::plan::RobotPlan| {
         let model = problem.models.values().find(|m| m.name == robot.dynamics);
@@ -142,12 +149,11 @@ fn movers<'a>(problem: &Problem, plan: &'a Plan) -> Vec<Mover<'a>> {
         let tube = plan.tubes.iter().find(|t| t.dynamics == robot.dynamics);
         let at = |z: &Vec<f64>| axes.iter().map(|&a| z.get(a).copied().unwrap_or(0.0)).collect::<Vec<f64>>();
         let positions: Vec<Vec<f64>> = robot.z.iter().map(at).collect();
-        let point = |p: &Vec<f64>| [0, 1].map(|axis| p.get(axis).copied().unwrap_or(0.0));
         Mover {
             name: &robot.name,
-            points: positions.iter().map(point).collect(),
+            points: positions.iter().map(|p| projection.flat(p)).collect(),
             positions,
-            tube: tube.map_or_else(|| still.clone(), |tube| Section::new(tube, axes).outline()),
+            tube: tube.map_or_else(|| still.clone(), |tube| Section::new(tube, axes).outline(projection)),
         }
     };
     plan.robots.iter().map(mover).collect()

@@ -1,6 +1,7 @@
 //! What of a tube concerns positions: where a robot can be around its nominal position.
 
-use super::outline::{Outline, Point};
+use super::outline::Outline;
+use super::projection::Projection;
 use crate::plan::Tube;
 
 /// Generators shorter than this share of all of them together can't be seen.
@@ -40,12 +41,12 @@ impl Section {
         dot(&self.center) + self.generators.iter().map(|g| dot(g).abs()).sum::<f64>()
     }
 
-    /// Its outline seen from above.
-    pub fn outline(&self) -> Outline {
+    /// Its outline in a projection.
+    pub fn outline(&self, projection: &Projection) -> Outline {
         let total: f64 = self.generators.iter().map(|g| length(g)).sum();
-        let mut outline = Outline { corners: vec![xy(&self.center)], radius: 0.0 };
+        let mut outline = Outline { corners: vec![projection.flat(&self.center)], radius: 0.0 };
         for generator in self.generators.iter().filter(|g| length(g) > UNSEEN * total) {
-            let g = xy(generator);
+            let g = projection.flat(generator);
             let moved = |sign: f64| {
                 outline
                     .corners
@@ -59,15 +60,15 @@ impl Section {
     }
 
     /// The outline of −Ω: what blockers grow by.
-    pub fn mirrored(&self) -> Outline {
-        let corners = self.outline().corners.iter().map(|c| [-c[0], -c[1]]).collect();
+    pub fn mirrored(&self, projection: &Projection) -> Outline {
+        let corners = self.outline(projection).corners.iter().map(|c| [-c[0], -c[1]]).collect();
         Outline::hull(corners)
     }
 
     /// The extreme errors: its corners in the plane, in space those of the box around it.
     pub fn corners(&self) -> Vec<Vec<f64>> {
         if self.center.len() < 3 {
-            return self.outline().corners.iter().map(|c| c.to_vec()).collect();
+            return self.outline(&Projection::TOP).corners.iter().map(|c| c.to_vec()).collect();
         }
         let half =
             |axis: usize| self.generators.iter().map(|g| g.get(axis).map_or(0.0, |x| x.abs())).sum::<f64>();
@@ -80,11 +81,6 @@ impl Section {
     }
 }
 
-fn xy(v: &[f64]) -> Point {
-    [0, 1].map(|axis| v.get(axis).copied().unwrap_or(0.0))
-}
-
 fn length(v: &[f64]) -> f64 {
-    let [x, y] = xy(v);
-    x.hypot(y)
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

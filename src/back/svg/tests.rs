@@ -1,5 +1,6 @@
 //! Tests of the picture on a small plan made by hand.
 
+use super::projection::Projection;
 use super::sample::{link, plan, problem};
 use super::scene::Scene;
 use super::{Options, draw, moments};
@@ -124,7 +125,7 @@ fn links_are_in_the_panels_of_their_steps() {
 fn panels_show_the_start_the_loop_and_arrivals() {
     let (problem, mut plan) = (problem("small"), plan());
     let of = |plan: &_| {
-        let all = moments::choose(&Scene::new(&problem, plan), 4);
+        let all = moments::choose(&Scene::new(&problem, plan, Projection::TOP), 4);
         all.into_iter().map(|m| (m.step, m.what.join(", "))).collect::<Vec<_>>()
     };
     let expected = [(0, "start"), (2, "the loop begins"), (4, "then step 2 again")];
@@ -137,10 +138,70 @@ fn panels_show_the_start_the_loop_and_arrivals() {
     assert_eq!(of(&plan)[2], (4, "stays so for ever".to_string()));
 }
 
+/// The picture of a mission in space: a jammer that is a cube of 2 m.
+fn drawn_in_space() -> String {
+    let text = include_str!("../../../tests/missions/solve/space.dosm");
+    let source = crate::source::SourceFile::new("space.dosm", text);
+    let mut diagnostics = crate::diag::Diagnostics::new();
+    let mission = crate::driver::load(&source, &Default::default(), &mut diagnostics).expect("no errors");
+    let mut plan = plan();
+    plan.robots.truncate(1);
+    plan.robots[0].name = "r".into();
+    plan.robots[0].dynamics = "Drone".into();
+    let place = |x: f64, y: f64, z: f64| vec![x, 0.0, y, 0.0, z, 0.0];
+    plan.robots[0].z = [1.0, 2.0, 3.0, 4.0, 5.0].map(|x| place(x, 7.0, 0.5 * x)).into();
+    draw(&mission.problem, &plan, &Options::default()).contents
+}
+
+/// Width and height of a path of straight lines.
+fn extent(path: &str) -> [f64; 2] {
+    let numbers: Vec<f64> =
+        path.split(['M', 'L', 'Z', ' ']).filter_map(|number| number.parse().ok()).collect();
+    [0, 1].map(|axis| {
+        let along = numbers.iter().skip(axis).step_by(2);
+        along.clone().fold(f64::MIN, |a, b| a.max(*b)) - along.fold(f64::MAX, |a, b| a.min(*b))
+    })
+}
+
 #[test]
-fn a_mission_in_space_says_that_it_is_seen_from_above() {
-    let mut space = problem("space");
-    space.dimension = 3;
-    let text = draw(&space, &plan(), &Options::default()).contents;
-    assert!(text.contains("; seen from above</text>") && text.contains("z is not shown"));
+fn a_mission_in_space_is_shown_from_four_sides() {
+    let text = drawn_in_space();
+    for caption in ["from above: x, y", "from the front: x, z", "from the right: y, z"] {
+        assert!(text.contains(&format!(">{caption}</text>")), "{caption}");
+    }
+    assert!(text.contains("Workspace of 8.00 m by 8.00 m by 6.00 m."));
+    // Three faces of the cube are turned to the viewer, the other three show by their edges; then
+    // comes the view from above, the legend, the other views. Small panels have three faces again.
+    let jammers = paths(&text, "jammer");
+    assert_eq!(jammers.len(), 3 + 3 + 1 + 3 * 3);
+    let bar = paths(&text, "bar")[0].clone();
+    let length: f64 =
+        bar.split('h').nth(1).and_then(|rest| rest.split('m').next()?.parse().ok()).expect("a bar");
+    let metres: f64 = if text.contains(">5 m</text>") { 5.0 } else { 2.0 };
+    for square in [3, 5, 6].map(|at| &jammers[at]) {
+        let [w, h] = extent(square);
+        assert!((w - 2.0 * length / metres).abs() < 0.02 && (h - w).abs() < 0.02, "{square} {bar}");
+    }
+}
+
+#[test]
+fn the_axonometric_view_is_to_scale_along_its_picture_plane() {
+    // The diagonal of the floor that is drawn level is as long as it is, in the scale of a ball's
+    // circle; every edge of a cube along one axis is equally long.
+    let p = Projection::axonometric();
+    let [a, b] = [p.flat(&[0.0; 3]), p.flat(&[0.0, 0.0, 2.0])];
+    assert!(a[0] == b[0] && b[1] > a[1], "z is drawn upwards");
+    let circle = (0..360).map(|i| {
+        let (sin, cos) = f64::from(i).to_radians().sin_cos();
+        let [x, y] = p.flat(&[cos, sin, 0.0]);
+        x.hypot(y)
+    });
+    assert!((circle.fold(0.0, f64::max) - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn shadows_lie_on_the_floor_below_the_ways() {
+    let text = drawn_in_space();
+    assert_eq!(paths(&text, "shadow").len(), 1 + 1, "one a robot, one in the legend");
+    assert!(text.contains(r#"<path class="stem""#));
 }
