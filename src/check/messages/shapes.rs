@@ -120,6 +120,7 @@ pub(in crate::check) fn bad_points(
     error: &ShapeError,
 ) -> Diagnostic {
     let at = error_point(error).and_then(|index| points.get(index)).map_or(span, |p| p.span);
+    let in_space = points.first().is_some_and(|p| p.coordinates.len() > 2);
     match error {
         ShapeError::NotConvex { .. } => Diagnostic::error(
             "dosm::check::not_convex",
@@ -138,8 +139,10 @@ pub(in crate::check) fn bad_points(
         .with_label(points.get(*first).map_or(span, |p| p.span), "first here"),
         ShapeError::TooFewPoints => {
             let message = format!("the {shape} has too few corners");
-            Diagnostic::error("dosm::check::flat_shape", message, span, "at least three are needed")
+            let least = if in_space { "at least four different ones" } else { "at least three" };
+            Diagnostic::error("dosm::check::flat_shape", message, span, format!("{least} are needed"))
         }
+        _ if in_space => flat_shape(span, "all its points lie on one plane"),
         _ => flat_shape(span, "all its points lie on one line"),
     }
 }
