@@ -339,3 +339,47 @@ fn words_of_a_place_are_names_elsewhere() {
         says(&format!("let {name} = 3"), &["check::predeclared"]);
     }
 }
+
+/// A family means its members, declared one by one.
+#[test]
+fn a_family_is_its_members() {
+    let head = "dosm 1
+workspace box (0, 0) .. (20, 10)
+dynamics Rover { step 0.5 s integrator 2 bound ax, ay in [-4, 4] disturbance px, py in [-0.1, 0.1] }
+let P = [2, 2; 4, 3]
+";
+    let family = "base mast[i in 1..2] at (i, 9)
+region S[i in 1..2, j in 0..1] = box (5 * i, 3 * j + 1) .. (5 * i + 3, 3 * j + 3) or disc (i, 8) radius 0.5
+obstacle pillar[i in 1..2] = box (9 * i, 9) .. (9 * i + 1, 10)
+opaque obstacle wall[k in -1..0] = box (14 + k, 0) .. (14.5 + k, 1)
+jammer J[i in 1..2] = ball (16 + i, 5 +/- i / 10) radius 0.3 +/- i / 20
+robot cart[i in 1..2]: Rover at { px = P[i, 1], py = P[i, 2], vx = i / 10 }
+goal go: forall i in 1..2: forall j in 0..1: eventually cart[i] in S[i, j]
+";
+    let members = "base mast_1 at (1, 9)
+base mast_2 at (2, 9)
+region S_1_0 = box (5, 1) .. (8, 3) or disc (1, 8) radius 0.5
+region S_1_1 = box (5, 4) .. (8, 6) or disc (1, 8) radius 0.5
+region S_2_0 = box (10, 1) .. (13, 3) or disc (2, 8) radius 0.5
+region S_2_1 = box (10, 4) .. (13, 6) or disc (2, 8) radius 0.5
+obstacle pillar_1 = box (9, 9) .. (10, 10)
+obstacle pillar_2 = box (18, 9) .. (19, 10)
+opaque obstacle wall_m1 = box (13, 0) .. (13.5, 1)
+opaque obstacle wall_0 = box (14, 0) .. (14.5, 1)
+jammer J_1 = ball (17, 5 +/- 0.1) radius 0.3 +/- 0.05
+jammer J_2 = ball (18, 5 +/- 0.2) radius 0.3 +/- 0.1
+robot cart_1: Rover at { px = 2, py = 2, vx = 0.1 }
+robot cart_2: Rover at { px = 4, py = 3, vx = 0.2 }
+goal go: (eventually cart_1 in S_1_0 and eventually cart_1 in S_1_1) and (eventually cart_2 in S_2_0 and \
+ eventually cart_2 in S_2_1)
+";
+    let text = |declarations: &str| {
+        let (mission, codes) = load(&format!("{head}{declarations}"), &Overrides::default());
+        mission.unwrap_or_else(|| panic!("{codes:?}")).problem.to_string()
+    };
+    let facts = |text: &str| -> String {
+        let plain = text.replace("[-1]", "_m1").replace([',', '['], "_").replace(']', "");
+        plain.lines().filter(|line| !line.starts_with(['f', 'g'])).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(facts(&text(family)), facts(&text(members)));
+}

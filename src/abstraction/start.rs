@@ -229,15 +229,42 @@ fn inspect_pairs(
 ) {
     let Some(separation) = &problem.separation else { return };
     let starts: Vec<&Start<'_>> = starts.iter().flatten().collect();
-    for (i, first) in starts.iter().enumerate() {
-        for second in &starts[i + 1..] {
-            let gap = first.certain_gap(second);
-            if gap < *separation {
-                found.push(too_close(first, second, &gap, separation, spans.separation));
-            }
-        }
+    for (first, second) in close_pairs(&starts, separation) {
+        let (first, second) = (starts[first], starts[second]);
+        let gap = first.certain_gap(second);
+        found.push(too_close(first, second, &gap, separation, spans.separation));
     }
 }
+
+/// The pairs of starts that are too close, in order: the first [`MOST_PAIRS`] from one end of the
+/// mission to the other. Only neighbours along the axis that spreads the starts most are compared.
+fn close_pairs(starts: &[&Start<'_>], separation: &Rational) -> Vec<(usize, usize)> {
+    let lo = |i: usize, axis: usize| &starts[i].corners.0[axis];
+    let extent = |axis: usize| {
+        let all = || (0..starts.len()).map(|i| lo(i, axis));
+        all().max().zip(all().min()).map(|(max, min)| max - min)
+    };
+    let dimension = starts.first().map_or(0, |start| start.at.len());
+    let Some(axis) = (0..dimension).max_by_key(|&axis| extent(axis)) else { return Vec::new() };
+    let mut order: Vec<usize> = (0..starts.len()).collect();
+    order.sort_by(|&i, &j| lo(i, axis).cmp(lo(j, axis)));
+    let mut pairs = Vec::new();
+    for (place, &i) in order.iter().enumerate() {
+        let end = &starts[i].corners.1[axis] + separation;
+        let near = order[place + 1..].iter().take_while(|&&j| *lo(j, axis) < end);
+        let close = near.filter(|&&j| starts[i].certain_gap(starts[j]) < *separation);
+        pairs.extend(close.take(MOST_PAIRS - pairs.len()).map(|&j| (i.min(j), i.max(j))));
+        if pairs.len() == MOST_PAIRS {
+            break;
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// So many pairs of starts that are too close are told: nobody reads more, and a family that starts in
+/// one place has millions.
+const MOST_PAIRS: usize = 100;
 
 fn too_close(
     first: &Start<'_>,

@@ -8,6 +8,13 @@ use crate::tube;
 
 /// The codes found in a problem, sorted and without repetition.
 fn codes(problem: &Problem) -> Vec<&'static str> {
+    let mut codes = all_codes(problem);
+    codes.dedup();
+    codes
+}
+
+/// The codes found in a problem, sorted.
+fn all_codes(problem: &Problem) -> Vec<&'static str> {
     let mut diagnostics = Diagnostics::new();
     let spans = Spans::default();
     let tubes = tube::synthesize(problem, &spans, &mut diagnostics).unwrap();
@@ -15,8 +22,18 @@ fn codes(problem: &Problem) -> Vec<&'static str> {
     let mut codes: Vec<_> =
         diagnostics.iter().map(|d| d.code.trim_start_matches("dosm::abstraction::")).collect();
     codes.sort_unstable();
-    codes.dedup();
     codes
+}
+
+/// How many pairs of robots that start at these places are told of.
+fn too_close(places: &[(f64, f64)]) -> usize {
+    let mut problem = sample::relay();
+    let robot = problem.robots[RobotId::new(0)].clone();
+    // Two diagnostics that say the same are one.
+    let named = |i: usize| crate::ir::Robot { name: format!("r{i}"), ..robot.clone() };
+    problem.robots = (0..places.len()).map(named).collect();
+    places.iter().enumerate().for_each(|(i, (x, y))| start(&mut problem, i, *x, *y));
+    all_codes(&problem).iter().filter(|code| **code == "starts_too_close").count()
 }
 
 fn with(change: impl FnOnce(&mut Problem)) -> Vec<&'static str> {
@@ -88,6 +105,24 @@ fn starts_keep_their_separation_with_both_tubes() {
     };
     assert_eq!(gap(0.85), ["starts_too_close"]);
     assert!(gap(0.8501).is_empty());
+}
+
+/// Whatever the order and the axis, the pairs are those that comparing each with each finds.
+#[test]
+fn close_starts_are_found_among_all_pairs() {
+    for seed in 1..40u32 {
+        let at = |i: usize, axis: u32| f64::from((seed * 37 + 11 * i as u32 * (axis + 1) * seed) % 17) * 0.35;
+        let places: Vec<(f64, f64)> = (0..3).map(|i| (at(i, 0), at(i, 1))).collect();
+        let apart = |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs().max((b - d).abs()) > 0.85 + 1e-9;
+        let expected = (0..3).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let expected = expected.filter(|(i, j)| !apart(places[*i], places[*j])).count();
+        assert_eq!(too_close(&places), expected, "{places:?}");
+    }
+}
+
+#[test]
+fn a_crowd_in_one_place_is_told_of_at_once() {
+    assert_eq!(too_close(&vec![(0.0, 4.0); 2000]), MOST_PAIRS);
 }
 
 #[test]
