@@ -44,7 +44,7 @@ impl Cdd {
         let columns = rows[0].len();
         let mut input = format!("{kind}-representation\nbegin\n{} {columns} rational\n", rows.len());
         for row in rows {
-            let numbers: Vec<String> = row.iter().map(|x| fraction(x)).collect();
+            let numbers: Vec<String> = row.iter().map(fraction).collect();
             input += &(numbers.join(" ") + "\n");
         }
         input += "end\n";

@@ -89,11 +89,11 @@ fn main_panel(canvas: &mut Canvas, layout: &Layout, scene: &Scene, options: &Opt
     cells::draw(canvas, view, options.cells);
     axes::grid(canvas, view);
     stills::draw(canvas, view, scene, true);
-    ways::tubes(canvas, view, scene);
+    ways::tubes(canvas, view, scene, &|_, _, _| true);
     canvas.add("</svg>");
     stills::frame(canvas, view, scene);
     stills::bases(canvas, view, scene, mark::MAST);
-    ways::draw(canvas, view, scene);
+    ways::draw(canvas, view, scene, &|_, _, _| true);
     let mut places = Places::new(label_area(layout));
     axes::draw(canvas, layout, &mut places);
     labels_of(canvas, view, scene, &mut places);

@@ -16,27 +16,78 @@ type Item<'a> = (&'a str, &'a str, &'a Piece);
 
 /// Draws all regions, obstacles and jammers, the farthest ones first.
 pub fn draw(canvas: &mut Canvas, view: &View, problem: &Problem, projection: &Projection) {
-    let regions = problem.regions.values().map(|r| ("region", r.name.as_str(), &r.shape));
-    let blockers = problem.blockers.values().map(|b| (stills::class(b.kind), b.name.as_str(), &b.shape));
-    let mut items: Vec<Item<'_>> = Vec::new();
-    for (class, name, shape) in regions.chain(blockers) {
-        items.extend(shape.pieces.iter().map(|piece| (class, name, piece)));
+    let stack = Stack::new(problem, projection);
+    (0..stack.count()).for_each(|index| stack.draw(canvas, view, index));
+}
+
+/// All pieces, the farthest ones first.
+pub struct Stack<'a> {
+    projection: &'a Projection,
+    items: Vec<Item<'a>>,
+}
+
+impl<'a> Stack<'a> {
+    /// The pieces of a problem's regions, obstacles and jammers.
+    pub fn new(problem: &'a Problem, projection: &'a Projection) -> Stack<'a> {
+        let regions = problem.regions.values().map(|r| ("region", r.name.as_str(), &r.shape));
+        let blockers = problem.blockers.values().map(|b| (stills::class(b.kind), b.name.as_str(), &b.shape));
+        let mut items: Vec<Item<'_>> = Vec::new();
+        for (class, name, shape) in regions.chain(blockers) {
+            items.extend(shape.pieces.iter().map(|piece| (class, name, piece)));
+        }
+        let nearness = |item: &Item<'_>| projection.nearness(&middle(item.2));
+        items.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
+        Stack { projection, items }
     }
-    let nearness = |item: &Item<'_>| projection.nearness(&middle(item.2));
-    items.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
-    for (class, name, piece) in items {
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.items.len()
+    }
+
+    /// How many pieces are drawn before a segment: all that lie before the first one that may hide it.
+    pub fn layer(&self, a: &[f64], b: &[f64]) -> usize {
+        let hides = |(class, _, piece): &Item<'_>| *class != "region" && self.may_hide(piece, a, b);
+        self.items.iter().position(hides).unwrap_or(self.items.len())
+    }
+
+    /// Whether a segment may lie behind a piece. It does not where they are apart on the picture, or
+    /// where a face that is turned to the viewer has the whole segment before it.
+    fn may_hide(&self, piece: &Piece, a: &[f64], b: &[f64]) -> bool {
+        let ends = Outline::hull([a, b].map(|p| self.projection.flat(p)).to_vec());
+        let ((low, high), (left, right)) = (Outline::of(piece, self.projection).bounds(), ends.bounds());
+        if (0..2).any(|k| right[k] < low[k] || high[k] < left[k]) {
+            return false;
+        }
+        match piece {
+            Piece::Ball { .. } => {
+                let nearness = |p: &[f64]| self.projection.nearness(p);
+                0.5 * (nearness(a) + nearness(b)) <= nearness(&middle(piece))
+            }
+            Piece::Polytope(polytope) => !polytope.facets.iter().any(|facet| {
+                let normal: Vec<f64> = facet.normal.iter().map(Rational::to_f64).collect();
+                let before = |p: &[f64]| {
+                    normal.iter().zip(p).map(|(n, x)| n * x).sum::<f64>() >= facet.offset.to_f64()
+                };
+                self.projection.nearness(&normal) > 0.0 && before(a) && before(b)
+            }),
+        }
+    }
+
+    /// Draws one of them; nothing when there are not so many.
+    pub fn draw(&self, canvas: &mut Canvas, view: &View, index: usize) {
+        let Some((class, name, piece)) = self.items.get(index) else { return };
         canvas.add(r#"<g class="solid">"#);
         match piece {
-            Piece::Polytope(polytope) => faces(canvas, view, polytope, projection, class, name),
+            Piece::Polytope(polytope) => faces(canvas, view, polytope, self.projection, class, name),
             Piece::Ball { center, spread, radius } => {
-                canvas.titled_path(class, &view.path(&Outline::of(piece, projection)), name);
+                canvas.titled_path(class, &view.path(&Outline::of(piece, self.projection)), name);
                 let floats: Vec<f64> = center.iter().map(Rational::to_f64).collect();
                 if spread.iter().any(|s| !s.is_zero()) {
-                    let outline =
-                        Outline { corners: vec![projection.flat(&floats)], radius: radius.to_f64() };
-                    canvas.path("hidden", &view.path(&outline));
+                    let corners = vec![self.projection.flat(&floats)];
+                    canvas.path("hidden", &view.path(&Outline { corners, radius: radius.to_f64() }));
                 }
-                equator(canvas, view, &floats, radius.to_f64(), projection);
+                equator(canvas, view, &floats, radius.to_f64(), self.projection);
             }
         }
         canvas.add("</g>");

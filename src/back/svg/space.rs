@@ -8,6 +8,7 @@ use super::layout::{LEFT, Layout, MARGIN, MOMENTS, SMALL};
 use super::outline::Point;
 use super::projection::Projection;
 use super::scene::Scene;
+use super::solids::Stack;
 use super::{axes, legend, mark, moments, panels, solids, stills, text, ways};
 use crate::exact::Rational;
 use crate::ir::Problem;
@@ -74,11 +75,19 @@ fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room)
     ends(1).for_each(|y| grid += &line(room.floor(room.low[0], y), room.floor(room.high[0], y)));
     canvas.path("grid", &grid);
     shadows(canvas, view, scene, room);
-    solids::draw(canvas, view, scene.problem, projection);
-    ways::tubes(canvas, view, scene);
-    stems(canvas, view, scene, room);
+    let stack = Stack::new(scene.problem, projection);
+    for layer in 0..=stack.count() {
+        let place = |robot: usize, from: usize, to: usize| {
+            let positions = &scene.robots[robot].positions;
+            stack.layer(&positions[from], &positions[to])
+        };
+        let shown = |robot: usize, from: usize, to: usize| place(robot, from, to) == layer;
+        ways::tubes(canvas, view, scene, &shown);
+        stems(canvas, view, scene, room, |p, floor| stack.layer(p, floor) == layer);
+        ways::draw(canvas, view, scene, &shown);
+        stack.draw(canvas, view, layer);
+    }
     stills::bases(canvas, view, scene, mark::MAST);
-    ways::draw(canvas, view, scene);
     solids::room(canvas, view, scene.problem, projection, true);
     let (x, y) = view.corner;
     let area = Rect { x, y, w: view.size[0], h: view.size[1] };
@@ -110,14 +119,25 @@ fn shadows(canvas: &mut Canvas, view: &View, scene: &Scene, room: &Room) {
     }
 }
 
-/// Thin lines from the steps down to the floor.
-fn stems(canvas: &mut Canvas, view: &View, scene: &Scene, room: &Room) {
+/// Thin lines from the steps down to the floor, as far as they are shown.
+fn stems(
+    canvas: &mut Canvas,
+    view: &View,
+    scene: &Scene,
+    room: &Room,
+    shown: impl Fn(&[f64], &[f64]) -> bool,
+) {
     for (index, robot) in scene.robots.iter().enumerate() {
         let mut lines = String::new();
         for p in robot.positions.iter().filter(|p| p.len() == 3) {
-            lines += &open(&[pixel(view, scene, p), pixel(view, scene, &room.floor(p[0], p[1]))]);
+            let foot = room.floor(p[0], p[1]);
+            if shown(p, &foot) {
+                lines += &open(&[pixel(view, scene, p), pixel(view, scene, &foot)]);
+            }
         }
-        canvas.add(&format!(r#"<path class="stem" stroke="{}" d="{lines}"/>"#, mark::color(index)));
+        if !lines.is_empty() {
+            canvas.add(&format!(r#"<path class="stem" stroke="{}" d="{lines}"/>"#, mark::color(index)));
+        }
     }
 }
 
@@ -219,11 +239,11 @@ fn panel(canvas: &mut Canvas, view: &View, scene: &Scene, caption: &str) {
     canvas.add(&format!("<svg {}>", view.window()));
     axes::grid(canvas, view);
     stills::draw(canvas, view, scene, true);
-    ways::tubes(canvas, view, scene);
+    ways::tubes(canvas, view, scene, &|_, _, _| true);
     canvas.add("</svg>");
     stills::frame(canvas, view, scene);
     stills::bases(canvas, view, scene, mark::MAST * 0.8);
-    ways::draw(canvas, view, scene);
+    ways::draw(canvas, view, scene, &|_, _, _| true);
     let mut places = Places::new(Rect { x, y, w: view.size[0], h: view.size[1] });
     axes::marks(canvas, view, &mut places);
     super::labels_of(canvas, view, scene, &mut places);

@@ -18,19 +18,23 @@ pub const START: f64 = 7.0;
 /// every third …
 const MOST_NUMBERS: usize = 160;
 
+/// Which parts of the ways are drawn: by robot, from a step to a step; of a step's mark the same step
+/// twice.
+pub type Shown<'a> = &'a dyn Fn(usize, usize, usize) -> bool;
+
 /// Draws where every robot can be, between the steps and at them.
-pub fn tubes(canvas: &mut Canvas, view: &View, scene: &Scene) {
+pub fn tubes(canvas: &mut Canvas, view: &View, scene: &Scene, shown: Shown) {
     for (index, robot) in scene.robots.iter().enumerate() {
         let color = mark::color(index);
         // One group for the whole way: where it crosses itself it is no darker.
         canvas.add(&format!(r#"<g class="swept" fill="{color}">"#));
-        for (from, to) in legs(scene, robot) {
+        for (from, to) in legs(scene, robot).into_iter().filter(|(from, to)| shown(index, *from, *to)) {
             let between = robot.tube.at(robot.points[from]).joined(&robot.tube.at(robot.points[to]));
             canvas.path("", &view.path(&between));
         }
         canvas.add("</g>");
         canvas.add(&format!(r#"<g class="tube" stroke="{color}">"#));
-        for point in &robot.points {
+        for (_, point) in robot.points.iter().enumerate().filter(|(step, _)| shown(index, *step, *step)) {
             canvas.path("", &view.path(&robot.tube.at(*point)));
         }
         canvas.add("</g>");
@@ -38,7 +42,7 @@ pub fn tubes(canvas: &mut Canvas, view: &View, scene: &Scene) {
 }
 
 /// The pairs of steps that follow each other, the loop's closing one included.
-fn legs(scene: &Scene, robot: &Mover) -> Vec<(usize, usize)> {
+pub fn legs(scene: &Scene, robot: &Mover) -> Vec<(usize, usize)> {
     let count = robot.points.len();
     let along = (1..count).map(|t| (t - 1, t));
     let back = (count > 0).then(|| (count - 1, scene.plan.loop_start.min(count - 1)));
@@ -46,31 +50,47 @@ fn legs(scene: &Scene, robot: &Mover) -> Vec<(usize, usize)> {
 }
 
 /// Draws the nominal ways: the prefix dashed with hollow marks, the loop solid with full ones.
-pub fn draw(canvas: &mut Canvas, view: &View, scene: &Scene) {
+pub fn draw(canvas: &mut Canvas, view: &View, scene: &Scene, shown: Shown) {
     for (index, robot) in scene.robots.iter().enumerate() {
         let points = view.pixels(&robot.points);
         let k = scene.loop_start();
-        let (Some(again), color) = (points.get(k), mark::color(index)) else { continue };
-        let round: Vec<Pixel> = points[k..].iter().chain([again]).copied().collect();
+        if points.len() <= k {
+            continue;
+        }
+        let color = mark::color(index);
+        let (before, round): (Vec<_>, Vec<_>) = legs(scene, robot).into_iter().partition(|leg| leg.0 < k);
+        let visible = |&(from, to): &(usize, usize)| shown(index, from, to);
         canvas.add(&format!(r#"<g stroke="{color}">"#));
-        canvas.path("prefix", &open(&points[..=k]));
+        runs(&before, visible).iter().for_each(|run| canvas.path("prefix", &along(&points, run)));
         if !scene.stays() {
-            canvas.path("loop", &open(&round));
+            runs(&round, visible).iter().for_each(|run| canvas.path("loop", &along(&points, run)));
         }
         canvas.add("</g>");
         if !scene.stays() {
-            round.windows(2).for_each(|pair| arrow(canvas, color, pair[0], pair[1]));
+            let seen = round.iter().filter(|leg| visible(leg));
+            seen.for_each(|(from, to)| arrow(canvas, color, points[*from], points[*to]));
         }
     }
     for (index, robot) in scene.robots.iter().enumerate() {
-        marks(canvas, view, scene, index, robot);
+        marks(canvas, view, scene, (index, robot), shown);
     }
 }
 
-fn marks(canvas: &mut Canvas, view: &View, scene: &Scene, index: usize, robot: &Mover) {
+/// The visible stretches of legs that follow each other.
+fn runs(legs: &[(usize, usize)], visible: impl Fn(&(usize, usize)) -> bool) -> Vec<&[(usize, usize)]> {
+    legs.split(|leg| !visible(leg)).filter(|run| !run.is_empty()).collect()
+}
+
+/// The path along a stretch of legs.
+fn along(points: &[Pixel], run: &[(usize, usize)]) -> String {
+    let first = run.first().map(|(from, _)| points[*from]);
+    open(&first.into_iter().chain(run.iter().map(|(_, to)| points[*to])).collect::<Vec<_>>())
+}
+
+fn marks(canvas: &mut Canvas, view: &View, scene: &Scene, (index, robot): (usize, &Mover), shown: Shown) {
     let color = mark::color(index);
     canvas.add(&format!(r#"<g stroke="{color}" fill="{color}">"#));
-    for (step, point) in robot.points.iter().enumerate() {
+    for (step, point) in robot.points.iter().enumerate().filter(|(step, _)| shown(index, *step, *step)) {
         let at = view.pixel(*point);
         let looping = step >= scene.loop_start();
         let class = if looping { "stop" } else { "passed" };
@@ -130,7 +150,7 @@ pub fn numbers(canvas: &mut Canvas, view: &View, scene: &Scene, places: &mut Pla
             }
             let number = step.to_string();
             let w = text::width(&number, SMALL, false);
-            let choices = labels::around(view.pixel(*point), w, SMALL - 2.0, &[MARK + 3.0, MARK + 7.0]);
+            let choices = labels::around(view.pixel(*point), w, SMALL - 1.5, &[MARK + 3.0, MARK + 7.0]);
             if let Some(rect) = places.take(choices, 5.5) {
                 let (x, y) = rect.middle();
                 canvas.haloed((x, y + 0.36 * SMALL), &format!("step mid {}", mark::ink(index)), &number);
