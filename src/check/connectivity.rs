@@ -66,7 +66,9 @@ impl Checker<'_> {
         let norm = match norm {
             None => ir::Norm::Infinity,
             Some(norm) if norm.value.value == 2 => ir::Norm::Euclidean,
-            Some(norm) => return Err(self.report(messages::unknown_norm(norm.value.span, &norm.value.value))),
+            Some(norm) => {
+                return Err(self.report(messages::unknown_range_norm(norm.value.span, &norm.value.value)));
+            }
         };
         Ok(ir::Range { length: distance, norm })
     }
@@ -89,7 +91,8 @@ impl Checker<'_> {
     }
 
     fn every_in_steps(&mut self, every: &Value, span: Span) -> Result<u32, Reported> {
-        let number = if every.dimension.is_bare() {
+        let in_steps = every.dimension.is_bare();
+        let number = if in_steps {
             every.number.clone()
         } else {
             let time = self.expect_dimension(every.clone(), span, Dimension::TIME)?;
@@ -99,7 +102,10 @@ impl Checker<'_> {
             }
         };
         let steps = number.to_i64().filter(|n| (1..=MAX_STEPS).contains(n));
-        steps.map(|n| n as u32).ok_or_else(|| self.report(messages::bad_every(span, &number)))
+        steps.map(|n| n as u32).ok_or_else(|| {
+            let step = self.settings.step.clone().filter(|_| !in_steps);
+            self.report(messages::bad_every(span, &number, step.as_ref(), MAX_STEPS))
+        })
     }
 }
 

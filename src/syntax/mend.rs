@@ -101,7 +101,10 @@ pub(super) fn help(case: &Case) -> Option<String> {
         "[" if case.before().ends_with('[') => "rows are separated by `;`: `[1, 0; 0, 1]`",
         "=" if case.failure.expects(Rule::expression) => "leave the `=` out",
         "," if case.failure.expects(Rule::kw_radius) => "no comma stands before `radius`",
-        "<" if case.last_is("hops") || case.last_is("range") => "the bound is included: `<=`",
+        "<" if case.last_is("hops") => "the bound is included: `<=`",
+        _ if case.last_is("hops") && case.failure.expects(Rule::at_most) => "write `hops <= 3`",
+        "<" | "<=" | "=" if case.last_is("range") => "the length follows at once: `range 6 m`",
+        "none" if case.failure.expects(Rule::connectivity_item) => "write `connectivity none`, without `{ }`",
         "[" if case.names_goal() => "goals have no families: write `goal NAME: forall i in 1..3: …`",
         "" if case.declares("horizon") && case.failure.expects(Rule::dots) => {
             "a horizon is a range of lengths, such as `1..40`"
@@ -201,6 +204,9 @@ impl Case<'_> {
         let unlike = near.as_ref().is_none_or(|near| 3 * distance(self.found, near) > self.found.len());
         if unlike && number_before && self.failure.expects(Rule::unit) {
             return Some(format!("the units are {}; products are written with `*`", UNITS.join(", ")));
+        }
+        if near.is_none() && self.failure.expects(Rule::connectivity_item) {
+            return Some("the items are `hops`, `range`, `redundancy` and `every`".to_owned());
         }
         if near.is_none() && [Rule::shape, Rule::piece].iter().any(|r| self.failure.expects(*r)) {
             return Some("the shapes are `box`, `ball`, `disc`, `polygon`, `hull` and `where`".to_owned());

@@ -46,11 +46,31 @@ pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
 pub(in crate::check) fn bad_redundancy(span: Span, lost: i64, most: i64) -> Diagnostic {
     let message = format!("0 to {most} robots may be lost, not {lost}");
     Diagnostic::error("dosm::check::bad_redundancy", message, span, "not a number of robots to lose")
+        .with_help("more bases, or robots that stay near one, make losses matter less")
 }
 
-pub(in crate::check) fn bad_every(span: Span, steps: &Rational) -> Diagnostic {
+/// Names the nearest whole numbers of steps; as times of this step, where that is what was written.
+pub(in crate::check) fn bad_every(
+    span: Span,
+    steps: &Rational,
+    step: Option<&Rational>,
+    most: i64,
+) -> Diagnostic {
     let message = format!("links are required every so many whole steps, not every {}", super::shown(steps));
+    let time = step.filter(|step| !super::shown(step).contains(['/', 'e']));
+    let every = |steps: Rational| match time {
+        Some(step) => format!("`every {} s`", super::shown(&(steps * step))),
+        None => format!("`every {}`", super::shown(&steps)),
+    };
+    let help = if *steps < Rational::ONE {
+        format!("the most often is each step, {}", every(Rational::ONE))
+    } else if *steps > Rational::from(most) {
+        format!("at most {most} steps may lie between; `connectivity none` asks for no links at all")
+    } else {
+        format!("the nearest are {} and {}", every(steps.floor()), every(steps.ceil()))
+    };
     Diagnostic::error("dosm::check::bad_every", message, span, "not a whole number of steps, 1 or more")
+        .with_help(help)
 }
 
 pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {

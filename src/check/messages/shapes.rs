@@ -78,6 +78,12 @@ pub(in crate::check) fn unknown_norm(span: Span, norm: &Rational) -> Diagnostic 
     Diagnostic::error("dosm::check::unknown_norm", message, span, "1 or 2, or none for the ∞-norm")
 }
 
+pub(in crate::check) fn unknown_range_norm(span: Span, norm: &Rational) -> Diagnostic {
+    let message = format!("links have no length in norm {}", super::shown(norm));
+    Diagnostic::error("dosm::check::unknown_norm", message, span, "2, or none for the ∞-norm")
+        .with_help("`range 6 m` is along each axis, `range 6 m norm 2` as the crow flies")
+}
+
 pub(in crate::check) fn too_many_parts(span: Span, found: usize, most: usize) -> Diagnostic {
     let message = format!("{found} are too many: at most {most} are allowed");
     Diagnostic::error("dosm::check::too_many_parts", message, span, "too many")
