@@ -1,15 +1,21 @@
-//! The one exception to 'same shortest length', made exact.
+//! The two exceptions to the laws, made exact.
 //!
 //! A length is refuted for the half-spaces of the search's directions only. A candidate of the search
 //! may keep clear of a blocker along no such direction all the same: chords and links are tested
 //! exactly, before anything is demanded of them. Such a plan is one, and right; but whether the search
 //! comes upon it depends on the order in which it looks. So two lengths may differ when the shorter
 //! plan has a chord or link of this kind, and only then.
+//!
+//! And a smaller disturbance has a tube of its own, for which the planner makes positions narrow, not
+//! everything: where it takes more of an input or a state than the old tube did, a plan that needed
+//! these to the full may be lost. (The old plan, with the old tube, stays a plan.)
 
 use dosmc::abstraction::{Abstraction, HalfSpace, Owner, SolidId};
 use dosmc::driver::Mission;
 use dosmc::ir::{BaseId, ModelId, RobotId};
 use dosmc::plan::Plan;
+use dosmc::tube::Tube;
+use nalgebra::DMatrix;
 
 /// Whether a chord or a link of the plan keeps clear of a blocker along no direction of the search.
 pub fn lucky(mission: &Mission, plan: &Plan) -> bool {
@@ -22,6 +28,23 @@ pub fn lucky(mission: &Mission, plan: &Plan) -> bool {
             problem.robots.ids().any(|robot| scene.chords(robot, solid)) || (links && scene.links(solid))
         })
     })
+}
+
+/// Whether a model's tube takes more of a state or an input than it did.
+pub fn grown(before: &Mission, after: &Mission) -> bool {
+    let reaches = |tube: &Tube| -> Vec<f64> {
+        let reach = |list: &[DMatrix<f64>], row: usize| -> f64 {
+            let entries = list
+                .iter()
+                .flat_map(|m| m.row(row).iter().copied().zip(&tube.half_width).collect::<Vec<_>>());
+            entries.map(|(x, w)| x.abs() * w).sum()
+        };
+        let rows = |list: &[DMatrix<f64>]| 0..list.first().map_or(0, DMatrix::nrows);
+        let states = rows(&tube.d).map(|row| reach(&tube.d, row));
+        states.chain(rows(&tube.m).map(|row| reach(&tube.m, row))).collect()
+    };
+    let pairs = before.tubes.values().zip(after.tubes.values());
+    pairs.flat_map(|(old, new)| reaches(old).into_iter().zip(reaches(new))).any(|(old, new)| new > old + 1e-9)
 }
 
 struct Scene<'a> {
