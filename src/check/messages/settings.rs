@@ -62,9 +62,10 @@ pub(in crate::check) fn bad_every(
         Some(step) => format!("`every {} s`", super::shown(&(steps * step))),
         None => format!("`every {}`", super::shown(&steps)),
     };
+    let longest = Rational::from(most);
     let help = if *steps < Rational::ONE {
         format!("the most often is each step, {}", every(Rational::ONE))
-    } else if *steps > Rational::from(most) {
+    } else if *steps > longest {
         format!("at most {most} steps may lie between; `connectivity none` asks for no links at all")
     } else {
         format!("the nearest are {} and {}", every(steps.floor()), every(steps.ceil()))
