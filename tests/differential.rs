@@ -224,7 +224,9 @@ fn small(path: &Path, robots: usize) -> bool {
 #[test]
 fn z3_agrees_on_small_examples() {
     let Some(z3) = tool("DOSMC_Z3", &["z3"]) else { return };
-    let examples = missions("examples").into_iter().filter(|p| small(p, 2));
+    // With two robots in space Z3 takes up to a minute; one of those with one robot is in space.
+    let flat = |p: &Path| load(&source(p), &Overrides::default()).problem.dimension == 2;
+    let examples = missions("examples").into_iter().filter(|p| small(p, 2) && flat(p));
     // Of the corpus those with one robot and short numbers: what an exponential gives has 53 bits, with
     // which Z3 can take minutes.
     let short = |p: &Path| {
