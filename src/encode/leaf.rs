@@ -75,7 +75,7 @@ pub struct Face {
     pub positive: bool,
 }
 
-/// A lower bound on how far a robot can get: what spares literals that can never be true.
+/// Bounds on where a robot can get: what spares literals that are never true, or always.
 pub trait Reach {
     /// A lower bound on d · z of a robot at a step.
     fn least(&mut self, robot: RobotId, direction: DirectionId, step: usize) -> f64;
@@ -146,6 +146,9 @@ impl HalfSpaces {
         }
         if offset < reach.least(robot, direction, step) {
             return Bit::False;
+        }
+        if offset >= -reach.least(robot, vector.opposite, step) {
+            return Bit::True;
         }
         Bit::Lit(self.insert(circuit, abstraction, robot, step, half_space))
     }

@@ -11,6 +11,7 @@ mod convex;
 mod demands;
 mod free;
 mod lemma;
+mod reach;
 mod robots;
 mod sat;
 mod search;

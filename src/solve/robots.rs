@@ -16,6 +16,9 @@ use super::convex::{Conflict, Member, Node, Program, System, Verdict};
 /// A constraint of a candidate with its literal.
 pub type Constraint = (Lit, Leaf);
 
+/// Blocks of robots that constraints join, with these constraints.
+type Cluster = (Vec<Node>, Vec<Constraint>);
+
 /// States z_0 … z_{L+1} and inputs v_0 … v_L of one robot.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
@@ -84,22 +87,34 @@ impl<'a> Robots<'a> {
         constraints: &[Constraint],
         loop_start: usize,
     ) -> Result<Table<RobotId, Trajectory>, Vec<Refusal>> {
-        let clusters = self.clusters(constraints);
-        let mut refusals = Vec::new();
-        for (nodes, own) in &clusters {
-            match self.check(nodes, own, loop_start) {
-                Verdict::Feasible => {}
-                Verdict::Infeasible(conflict) => {
-                    let robots = robots_of(nodes);
-                    refusals.push(Refusal { constraints: own.clone(), robots, conflict: Some(conflict) });
-                }
-                Verdict::Undecided => {
-                    let robots = robots_of(nodes);
-                    refusals.push(Refusal { constraints: own.clone(), robots, conflict: None });
-                }
-            }
+        // What a robot can't do by itself says more than what several can't do together, and its
+        // program is far smaller. So robots come alone first.
+        let alone: Vec<Constraint> =
+            constraints.iter().filter(|(_, leaf)| !is_coupling(leaf)).copied().collect();
+        let single = self.clusters(&alone);
+        let refusals = self.refusals(&single, loop_start);
+        if !refusals.is_empty() {
+            return Err(refusals);
         }
+        if alone.len() == constraints.len() {
+            return Ok(self.trajectories(&single));
+        }
+        let clusters = self.clusters(constraints);
+        let refusals = self.refusals(&clusters, loop_start);
         if refusals.is_empty() { Ok(self.trajectories(&clusters)) } else { Err(refusals) }
+    }
+
+    fn refusals(&mut self, clusters: &[Cluster], loop_start: usize) -> Vec<Refusal> {
+        let mut refusals = Vec::new();
+        for (nodes, own) in clusters {
+            let conflict = match self.check(nodes, own, loop_start) {
+                Verdict::Feasible => continue,
+                Verdict::Infeasible(conflict) => Some(conflict),
+                Verdict::Undecided => None,
+            };
+            refusals.push(Refusal { constraints: own.clone(), robots: robots_of(nodes), conflict });
+        }
+        refusals
     }
 
     fn check(&mut self, nodes: &[Node], constraints: &[Constraint], loop_start: usize) -> Verdict {
@@ -124,7 +139,7 @@ impl<'a> Robots<'a> {
 
     /// The finest partition of all robots' blocks that keeps each constraint in one part, with each
     /// part's constraints.
-    fn clusters(&self, constraints: &[Constraint]) -> Vec<(Vec<Node>, Vec<Constraint>)> {
+    fn clusters(&self, constraints: &[Constraint]) -> Vec<Cluster> {
         let mut nodes: Vec<Node> = Vec::new();
         for (robot, entry) in self.problem.robots.iter() {
             let blocks = self.systems[entry.model].blocks.len();
@@ -140,7 +155,7 @@ impl<'a> Robots<'a> {
                 group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
             }
         }
-        let mut clusters: BTreeMap<usize, (Vec<Node>, Vec<Constraint>)> = BTreeMap::new();
+        let mut clusters: BTreeMap<usize, Cluster> = BTreeMap::new();
         for (node, &name) in nodes.iter().zip(&group) {
             clusters.entry(name).or_default().0.push(*node);
         }
@@ -176,7 +191,7 @@ impl<'a> Robots<'a> {
     }
 
     /// The trajectories that the clusters' programs hold.
-    fn trajectories(&self, clusters: &[(Vec<Node>, Vec<Constraint>)]) -> Table<RobotId, Trajectory> {
+    fn trajectories(&self, clusters: &[Cluster]) -> Table<RobotId, Trajectory> {
         let zero =
             |r: &crate::ir::Robot| vec![DVector::zeros(self.problem.models[r.model].m()); self.length + 1];
         let mut unknowns: Vec<Vec<DVector<f64>>> = self.problem.robots.values().map(zero).collect();
@@ -190,6 +205,15 @@ impl<'a> Robots<'a> {
             Trajectory { states, inputs }
         };
         self.problem.robots.ids().zip(&unknowns).map(run).collect()
+    }
+}
+
+/// Whether a constraint speaks of two robots.
+fn is_coupling(leaf: &Leaf) -> bool {
+    match leaf {
+        Leaf::HalfSpace { .. } => false,
+        Leaf::Apart(_) => true,
+        Leaf::Near(near) => near.second.is_some(),
     }
 }
 

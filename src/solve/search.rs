@@ -5,7 +5,7 @@ use std::time::Duration;
 use rustsat::types::{Lit, Var};
 
 use crate::abstraction::Abstraction;
-use crate::encode::{Anywhere, Encoder, Justification, Switch};
+use crate::encode::{Encoder, Justification, Switch};
 use crate::entity::{EntityId, Table};
 use crate::ir::{ModelId, Problem, RobotId};
 use crate::plan::Nominal;
@@ -16,6 +16,7 @@ use super::convex::{Conflict, System};
 use super::demands::Demands;
 use super::free::FreePrograms;
 use super::lemma::Lemma;
+use super::reach::Boxes;
 use super::robots::{Refusal, Robots, Trajectory, systems};
 use super::sat::{Answer, Model, Sat};
 use super::{Options, Outcome, Phase, Reason, Statistics};
@@ -62,13 +63,14 @@ impl<'a> Search<'a> {
     /// Tries the lengths in rising order.
     pub fn run(mut self) -> (Outcome, Statistics) {
         let start = self.now();
-        let mut encoder = Encoder::new(self.problem, self.abstraction, Box::new(Anywhere));
+        let systems = std::mem::take(&mut self.systems);
+        let reach = Boxes::new(self.problem, self.abstraction, systems.clone());
+        let mut encoder = Encoder::new(self.problem, self.abstraction, Box::new(reach));
         self.statistics.time_encode += self.now() - start;
         let mut sat = Sat::new(self.options.watch.clone());
         let mut demands = Demands::default();
         let mut undecided = false;
         let (from, to) = self.options.horizon;
-        let systems = std::mem::take(&mut self.systems);
         let mut free = FreePrograms::new(self.problem, self.abstraction, &systems);
         let mut shiftable = Vec::new();
         let mut outcome = None;

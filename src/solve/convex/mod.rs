@@ -8,5 +8,6 @@ mod simplex;
 mod system;
 
 pub use certificate::{Conflict, Term};
+pub use interval::Interval;
 pub use program::{Member, Node, Program, Verdict};
 pub use system::System;
