@@ -65,11 +65,16 @@ impl Switch {
     pub const ALL: [Switch; 3] = [Switch::Coupled, Switch::Tangents, Switch::Oblique];
 }
 
+/// How many times the space between two robots is cut before they are held apart by constraints on
+/// both at once: programs of one robot are small, those of all robots that come close are not.
+const CUTS: usize = 4;
+
 /// A disjunct behind a switch, which gets its meaning when some candidate turns on it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Deferred {
     Clear(Stage, SolidId, Vec<End>),
-    Apart(RobotId, RobotId, usize),
+    /// The separation of two robots during a step, and how many times it was cut.
+    Apart(RobotId, RobotId, usize, usize),
 }
 
 /// Counts for reports.
@@ -112,7 +117,8 @@ pub struct Encoder<'a> {
     passages: HashMap<ModelId, Option<Passage>>,
     access: HashMap<(RobotId, RegionId, usize), bool>,
     apart: HashSet<(RobotId, RobotId, usize)>,
-    cuts: HashMap<(RobotId, RobotId, usize), Vec<f64>>,
+    /// By pair, step and round.
+    cuts: HashMap<(RobotId, RobotId, usize, usize), Vec<f64>>,
     /// Links that are short enough along the axes, and along which other normals, as bits.
     ranges: HashSet<(Link, usize, Option<Vec<u64>>)>,
 }
@@ -312,7 +318,7 @@ impl<'a> Encoder<'a> {
         let Some(lit) = self.deferred.remove(&what) else { return false };
         let bit = match what {
             Deferred::Clear(stage, solid, ends) => self.clear_from(stage, solid, &ends),
-            Deferred::Apart(first, second, step) => self.faces(first, second, step),
+            Deferred::Apart(first, second, step, _) => self.faces(first, second, step),
         };
         self.circuit.resolve(lit, bit);
         true
@@ -334,9 +340,24 @@ impl<'a> Encoder<'a> {
         self.define_clear(solid, &link_ends(link, step))
     }
 
-    /// Says more of what it takes to [keep apart](Encoder::demand_apart). False when all is said.
-    pub fn sharpen_apart(&mut self, first: RobotId, second: RobotId, step: usize) -> bool {
-        self.define(Deferred::Apart(first, second, step))
+    /// Says more of what it takes to [keep apart](Encoder::demand_apart): other cuts at first, then
+    /// constraints on both robots at once. False when all is said.
+    pub fn sharpen_apart(
+        &mut self,
+        first: RobotId,
+        second: RobotId,
+        step: usize,
+        cuts: [Vec<f64>; 2],
+    ) -> bool {
+        let rounds =
+            (1..CUTS).find(|&r| self.deferred.contains_key(&Deferred::Apart(first, second, step, r)));
+        let Some(round) = rounds else { return self.define(Deferred::Apart(first, second, step, CUTS)) };
+        let Some(lit) = self.deferred.remove(&Deferred::Apart(first, second, step, round)) else {
+            return false;
+        };
+        let sides = self.cut_sides(first, second, step, cuts, round);
+        self.circuit.resolve(lit, sides);
+        true
     }
 
     /// The literal that lets a switch be used; assume its negation to keep it off. While what is
@@ -368,27 +389,39 @@ impl<'a> Encoder<'a> {
         if !self.apart.insert((first, second, step)) {
             return;
         }
+        let bit = self.cut_sides(first, second, step, cuts, 0);
+        self.circuit.require(bit);
+    }
+
+    /// Both robots on different sides of the cuts of a round, or what the next round brings.
+    fn cut_sides(
+        &mut self,
+        first: RobotId,
+        second: RobotId,
+        step: usize,
+        cuts: [Vec<f64>; 2],
+        round: usize,
+    ) -> Bit {
         for (at, cut) in cuts.into_iter().enumerate() {
-            self.cuts.entry((first, second, step + at)).or_insert(cut);
+            self.cuts.entry((first, second, step + at, round)).or_insert(cut);
         }
         let mut sides = Vec::new();
         for axis in 0..self.problem.dimension {
             for positive in [true, false] {
                 let face = Face { first, second, step, axis, positive };
-                let here = self.cut(face);
-                let there = self.cut(Face { step: step + 1, ..face });
+                let here = self.cut(face, round);
+                let there = self.cut(Face { step: step + 1, ..face }, round);
                 sides.push(self.circuit.and([here, there]));
             }
         }
-        sides.push(self.defer(Deferred::Apart(first, second, step)));
-        let bit = self.circuit.or(sides);
-        self.circuit.require(bit);
+        sides.push(self.defer(Deferred::Apart(first, second, step, round + 1)));
+        self.circuit.or(sides)
     }
 
     /// Both robots on their sides of the cut, at the face's step alone.
-    fn cut(&mut self, face: Face) -> Bit {
+    fn cut(&mut self, face: Face, round: usize) -> Bit {
         let half = 0.5 * self.problem.separation.as_ref().map_or(0.0, |e| e.to_f64());
-        let cut = self.cuts[&(face.first, face.second, face.step)][face.axis];
+        let cut = self.cuts[&(face.first, face.second, face.step, round)][face.axis];
         let (above, below) =
             if face.positive { (face.first, face.second) } else { (face.second, face.first) };
         let mut side = |robot: RobotId, downwards: bool| {

@@ -57,8 +57,12 @@ impl Demands {
                 }
                 Violation::CutOff(step, lost) => self.demand_reach(step, lost, length, encoder),
                 Violation::Apart(first, second, step, cuts) => {
-                    encoder.demand_apart(first, second, step, cuts);
-                    self.apart.insert((first, second, step)) || encoder.sharpen_apart(first, second, step)
+                    if self.apart.insert((first, second, step)) {
+                        encoder.demand_apart(first, second, step, cuts);
+                        true
+                    } else {
+                        encoder.sharpen_apart(first, second, step, cuts)
+                    }
                 }
             };
         }
