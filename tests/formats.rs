@@ -249,8 +249,12 @@ fn the_map_says_what_the_rows_do() {
             let [(terms, bound)] = &rows[..] else { panic!("{}: {rows:?}", path.display()) };
             assert_eq!(*bound, half_space.offset);
             assert!(terms.iter().all(|(name, _)| name.starts_with(&at(&entry.robot, entry.step))));
-            let coefficients: Vec<f64> = terms.iter().map(|(_, x)| *x).collect();
-            let direction: Vec<f64> = half_space.direction.iter().copied().filter(|x| *x != 0.0).collect();
+            // A model may declare its coordinates in another order than the workspace's.
+            let mut coefficients: Vec<f64> = terms.iter().map(|(_, x)| *x).collect();
+            let mut direction: Vec<f64> =
+                half_space.direction.iter().copied().filter(|x| *x != 0.0).collect();
+            coefficients.sort_by(f64::total_cmp);
+            direction.sort_by(f64::total_cmp);
             assert_eq!(coefficients, direction);
             seen[0] += 1;
         }
