@@ -115,7 +115,7 @@ impl Abstraction {
         let gap = size * GAP * backoff;
         let mut directions = Directions::new(problem.dimension);
         let solids = solid::of_problem(problem, &mut directions, gap);
-        let inside = problem.regions.values().map(|r| inside(&r.shape, &mut directions)).collect();
+        let inside = problem.regions.values().map(|r| inside(r.sure(), &mut directions)).collect();
         let base = |b: &crate::ir::Base| b.position.iter().map(Rational::to_f64).collect();
         let walls = problem.workspace.facets.iter().map(|f| facet(f, &mut directions)).collect();
         let mut abstraction = Abstraction {

@@ -55,7 +55,7 @@ fn emptied(problem: &Problem, sets: &[Option<ErrorSet>]) -> BTreeSet<(ModelId, R
         .collect();
     let fits = |(model, region): &(ModelId, RegionId)| {
         let Some(set) = &sets[model.index()] else { return true };
-        let pieces = &problem.regions[*region].shape.pieces;
+        let pieces = &problem.regions[*region].sure().pieces;
         pieces.iter().any(|piece| piece_has_room(piece, &rooms[model.index()], set.positions()))
     };
     asked.into_iter().filter(|pair| !fits(pair)).collect()
@@ -180,7 +180,7 @@ fn report(
             "no piece of this is as large as the tube",
         )
         .with_label(goal_span, format!("`{}` can't hold without it", goal.name))
-        .with_help(needed(problem, &region.shape, errors));
+        .with_help(needed(problem, region.sure(), errors));
         found.push(diagnostic);
     }
 }

@@ -25,6 +25,7 @@ mod sums;
 #[cfg(test)]
 mod tests;
 pub mod typed;
+mod uncertain;
 mod vacuity;
 mod windows;
 

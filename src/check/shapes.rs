@@ -2,6 +2,7 @@
 
 use crate::check::expression::{Scope, Value};
 use crate::check::families::Family;
+use crate::check::uncertain::{BallNorm, BallNumbers};
 use crate::check::{Checker, Entry, doc_text, messages, typed};
 use crate::diag::Reported;
 use crate::exact::Rational;
@@ -19,15 +20,6 @@ pub(super) const MAX_PARTS: usize = 256;
 
 /// The same in space, where exact hulls take the cube of it.
 const MAX_PARTS_IN_SPACE: usize = 48;
-
-/// What a shape is for: uncertain balls make sense only as something to stay away from.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Role {
-    /// The workspace or a region.
-    Target,
-    /// An obstacle or a jammer.
-    Blocker,
-}
 
 impl Checker<'_> {
     /// The workspace, which fixes the dimension of every shape.
@@ -58,9 +50,12 @@ impl Checker<'_> {
         let [piece] = &shape.pieces[..] else {
             return Err(self.report(messages::workspace_union(shape.span)));
         };
-        match self.piece(piece, Role::Target, &Scope::default())? {
-            typed::Piece::Polytope(polytope) => Ok(typed::Workspace { polytope, span }),
-            typed::Piece::Ball { .. } => Err(self.report(messages::round_workspace(piece.span))),
+        let scope = Scope::default();
+        let whole = self.piece(piece, &scope)?;
+        match self.sure_piece(piece, &scope)?.unwrap_or(Some(whole)) {
+            None => Err(self.report(messages::nothing_sure(piece.span))),
+            Some(typed::Piece::Polytope(polytope)) => Ok(typed::Workspace { polytope, span }),
+            Some(typed::Piece::Ball { .. }) => Err(self.report(messages::round_workspace(piece.span))),
         }
     }
 
@@ -86,11 +81,10 @@ impl Checker<'_> {
         let (family, members) = self.family(name, self.regions.len())?;
         let mut failed = false;
         for member in members {
-            let shape = if failed { None } else { self.shape(shape, Role::Target, &member.scope).ok() };
-            failed = shape.is_none();
-            let region =
-                |shape| typed::Region { name: member.name, doc: doc_text(&item.doc), shape, span: item.span };
-            self.regions.push(shape.map(region));
+            let both = if failed { None } else { self.region_shape(shape, &member.scope).ok() };
+            failed = both.is_none();
+            let (name, doc, span) = (member.name, doc_text(&item.doc), item.span);
+            self.regions.push(both.map(|(shape, sure)| typed::Region { name, doc, shape, sure, span }));
         }
         Ok(family)
     }
@@ -105,7 +99,7 @@ impl Checker<'_> {
         let (family, members) = self.family(name, self.blockers.len())?;
         let mut failed = false;
         for member in members {
-            let shape = if failed { None } else { self.shape(shape, Role::Blocker, &member.scope).ok() };
+            let shape = if failed { None } else { self.shape(shape, &member.scope).ok() };
             failed = shape.is_none();
             let (doc, span) = (doc_text(&item.doc), item.span);
             self.blockers.push(shape.map(|shape| typed::Blocker {
@@ -131,16 +125,40 @@ impl Checker<'_> {
         Ok(family)
     }
 
-    fn shape(&mut self, shape: &Shape, role: Role, scope: &Scope) -> Result<typed::Shape, Reported> {
+    fn shape(&mut self, shape: &Shape, scope: &Scope) -> Result<typed::Shape, Reported> {
         // Every piece is looked at, so that the errors of all of them are found.
-        let pieces: Vec<_> = shape.pieces.iter().map(|piece| self.piece(piece, role, scope)).collect();
+        let pieces: Vec<_> = shape.pieces.iter().map(|piece| self.piece(piece, scope)).collect();
         Ok(typed::Shape { pieces: pieces.into_iter().collect::<Result<_, _>>()? })
     }
 
-    fn piece(&mut self, piece: &Piece, role: Role, scope: &Scope) -> Result<typed::Piece, Reported> {
+    /// A region's shape, and what is certain of it where it is uncertain.
+    fn region_shape(
+        &mut self,
+        shape: &Shape,
+        scope: &Scope,
+    ) -> Result<(typed::Shape, Option<typed::Shape>), Reported> {
+        let whole = self.shape(shape, scope)?;
+        let mut uncertain = false;
+        let mut pieces = Vec::new();
+        for (piece, whole) in shape.pieces.iter().zip(&whole.pieces) {
+            let sure = self.sure_piece(piece, scope)?;
+            uncertain |= sure.is_some();
+            pieces.extend(sure.unwrap_or_else(|| Some(whole.clone())));
+        }
+        Ok((whole, uncertain.then_some(typed::Shape { pieces })))
+    }
+
+    /// What is certain of an uncertain ball; `None` for any other piece.
+    fn sure_piece(&mut self, piece: &Piece, scope: &Scope) -> Result<Option<Option<typed::Piece>>, Reported> {
+        let PieceKind::Ball { center, radius, norm, disc } = &piece.kind else { return Ok(None) };
+        let ball = self.ball_numbers(center, radius, norm, *disc, scope)?;
+        Ok(ball.is_uncertain().then(|| ball.sure()))
+    }
+
+    fn piece(&mut self, piece: &Piece, scope: &Scope) -> Result<typed::Piece, Reported> {
         let shape = match &piece.kind {
             PieceKind::Ball { center, radius, norm, disc } => {
-                self.ball(center, radius, norm, *disc, role, scope)?
+                self.ball(center, radius, norm, *disc, scope)?
             }
             _ => typed::Piece::Polytope(self.polytope(piece, scope)?),
         };
@@ -232,20 +250,37 @@ impl Checker<'_> {
         Ok(Polytope::from_box(&lo, &hi))
     }
 
+    /// Every ball that it may be: box(center ± spread) ⊕ ball(radius + growth).
     fn ball(
         &mut self,
         center: &Point,
         radius: &Coordinate,
         norm: &Option<Norm>,
         disc: bool,
-        role: Role,
         scope: &Scope,
     ) -> Result<typed::Piece, Reported> {
+        let ball = self.ball_numbers(center, radius, norm, disc, scope)?;
+        let radius = &ball.radius + &ball.growth;
+        let (middle, spread) = (ball.center, ball.spread);
+        Ok(match ball.norm {
+            BallNorm::Infinity => typed::Piece::Polytope(cube(&middle, &spread, &radius)),
+            BallNorm::One => {
+                typed::Piece::Polytope(self.cross_polytope(&middle, &spread, &radius, center.span)?)
+            }
+            BallNorm::Two => typed::Piece::Ball { center: middle, spread, radius },
+        })
+    }
+
+    fn ball_numbers(
+        &mut self,
+        center: &Point,
+        radius: &Coordinate,
+        norm: &Option<Norm>,
+        disc: bool,
+        scope: &Scope,
+    ) -> Result<BallNumbers, Reported> {
         let norm = self.ball_norm(norm, disc, center.span)?;
         let uncertain = center.coordinates.iter().chain([radius]).find_map(|c| c.uncertainty.as_ref());
-        if let (Some(uncertainty), Role::Target) = (uncertain, role) {
-            return Err(self.report(messages::uncertain_target(uncertainty.span)));
-        }
         let middle = self.coordinates(center, |c| Some(&c.value), scope)?;
         let spread = self.coordinates(center, |c| c.uncertainty.as_ref(), scope)?;
         let size = self.quantity(&radius.value, scope, Dimension::LENGTH)?;
@@ -261,14 +296,7 @@ impl Checker<'_> {
         {
             return Err(self.report(messages::negative_uncertainty(uncertainty.span)));
         }
-        let radius = size + growth;
-        Ok(match norm {
-            BallNorm::Infinity => typed::Piece::Polytope(cube(&middle, &spread, &radius)),
-            BallNorm::One => {
-                typed::Piece::Polytope(self.cross_polytope(&middle, &spread, &radius, center.span)?)
-            }
-            BallNorm::Two => typed::Piece::Ball { center: middle, spread, radius },
-        })
+        Ok(BallNumbers { norm, center: middle, spread, radius: size, growth })
     }
 
     fn ball_norm(&mut self, norm: &Option<Norm>, disc: bool, span: Span) -> Result<BallNorm, Reported> {
@@ -362,13 +390,6 @@ impl Checker<'_> {
         }
         Ok(HalfSpace { normal, offset })
     }
-}
-
-/// The norms that balls may have.
-enum BallNorm {
-    One,
-    Two,
-    Infinity,
 }
 
 /// Whether every number of a piece is in range; corners and sums are computed, so they may not be.

@@ -87,8 +87,10 @@ pub struct Region {
     pub name: String,
     /// Its documentation.
     pub doc: String,
-    /// The set.
+    /// The set; every set that it may be, together, where it is uncertain.
     pub shape: Shape,
+    /// What all sets that it may be have in common, where it is uncertain; perhaps no piece at all.
+    pub sure: Option<Shape>,
     /// Its declaration.
     pub span: Span,
 }

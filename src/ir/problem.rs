@@ -113,8 +113,18 @@ pub struct Region {
     pub name: String,
     /// Its documentation, empty when there is none.
     pub doc: String,
-    /// The set.
+    /// The set; every set that it may be, together, where it is uncertain.
     pub shape: Shape,
+    /// What all sets that it may be have in common, where it is uncertain: a [`Piece::Ball`] is then
+    /// the intersection of its balls, and there may be no piece at all.
+    pub sure: Option<Shape>,
+}
+
+impl Region {
+    /// Where a robot is certain to be in it.
+    pub fn sure(&self) -> &Shape {
+        self.sure.as_ref().unwrap_or(&self.shape)
+    }
 }
 
 /// What stands in the way of robots, links or both.

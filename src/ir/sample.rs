@@ -131,7 +131,7 @@ pub fn relay() -> Problem {
         ..problem.robots[RobotId::new(0)].clone()
     };
     problem.robots.push(second);
-    let region = |name: &str, shape| Region { name: name.into(), doc: String::new(), shape };
+    let region = |name: &str, shape| Region { name: name.into(), doc: String::new(), shape, sure: None };
     let left = problem.regions.push(region("left", box_shape(&[-11.0, 5.0], &[-7.0, 9.0])));
     let right = problem.regions.push(region("right", disc(&[8.0, 8.0], 2.0)));
     let shape = box_shape(&[-1.0, 4.0], &[1.0, 12.0]);

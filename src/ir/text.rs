@@ -24,6 +24,9 @@ impl Display for Problem {
         writeln!(f, "workspace {}", Corners(&self.workspace))?;
         for (id, region) in self.regions.iter() {
             writeln!(f, "{id} {} = {}", region.name, region.shape)?;
+            if let Some(sure) = &region.sure {
+                writeln!(f, "  for certain {sure}")?;
+            }
             write_doc(f, "  ", &region.doc)?;
         }
         for (id, blocker) in self.blockers.iter() {

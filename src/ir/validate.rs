@@ -74,7 +74,13 @@ impl Checker<'_> {
         self.require(p.step.is_positive(), "step", "is positive");
         self.require(1 <= p.horizon.0 && p.horizon.0 <= p.horizon.1, "horizon", "is 1 ≤ from ≤ to");
         self.polytope("workspace", &p.workspace);
-        p.regions.iter().for_each(|(id, Region { shape, .. })| self.shape(&id.to_string(), shape));
+        for (id, Region { shape, sure, .. }) in p.regions.iter() {
+            self.shape(&id.to_string(), shape);
+            // Nothing at all may be certain.
+            if let Some(sure) = sure.as_ref().filter(|sure| !sure.pieces.is_empty()) {
+                self.shape(&format!("what is certain of {id}"), sure);
+            }
+        }
         p.blockers.iter().for_each(|(id, Blocker { shape, .. })| self.shape(&id.to_string(), shape));
         for (id, Base { position, .. }) in p.bases.iter() {
             self.require(position.len() == p.dimension, id, "has a coordinate for each dimension");

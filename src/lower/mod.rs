@@ -55,7 +55,12 @@ fn shape(shape: &typed::Shape) -> ir::Shape {
 }
 
 fn region(region: &typed::Region) -> ir::Region {
-    ir::Region { name: region.name.clone(), doc: region.doc.clone(), shape: shape(&region.shape) }
+    ir::Region {
+        name: region.name.clone(),
+        doc: region.doc.clone(),
+        shape: shape(&region.shape),
+        sure: region.sure.as_ref().map(shape),
+    }
 }
 
 fn blocker(blocker: &typed::Blocker) -> ir::Blocker {

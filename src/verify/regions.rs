@@ -20,12 +20,13 @@ pub(super) fn check(plan: &Resolved, ledger: &mut Ledger) {
     for (id, robot) in plan.robots.iter() {
         let tube = plan.tube(id);
         for (&region, labels) in &robot.regions {
-            let shape = &plan.problem.regions[region].shape;
-            let along = supports.entry((robot.model, region)).or_insert_with(|| facet_supports(tube, shape));
+            // In takes what is certain of the region, out all that it may be.
+            let (shape, sure) = (&plan.problem.regions[region].shape, plan.problem.regions[region].sure());
+            let along = supports.entry((robot.model, region)).or_insert_with(|| facet_supports(tube, sure));
             for (t, label) in labels.iter().enumerate() {
                 let spot = Spot { plan, robot, tube, region, t };
                 match label {
-                    Label::In => spot.inside(shape, along, ledger),
+                    Label::In => spot.inside(sure, along, ledger),
                     Label::Out => spot.outside(shape, ledger),
                     Label::Unknown => {}
                 }

@@ -99,6 +99,7 @@ impl Scene {
                     name: (*name).into(),
                     doc: String::new(),
                     shape: shape(pieces),
+                    sure: None,
                 })
                 .collect(),
             blockers: self

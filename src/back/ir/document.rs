@@ -127,8 +127,13 @@ pub struct Region {
     pub name: String,
     /// Its documentation, empty when there is none.
     pub doc: String,
-    /// At least one convex piece, in the order of the operands of `or`.
+    /// At least one convex piece, in the order of the operands of `or`; of an uncertain ball, all
+    /// that it may be.
     pub pieces: Vec<Piece>,
+    /// Where balls are uncertain: what is in the region for certain. Of an uncertain Euclidean ball
+    /// that is the intersection of all balls with their centre in the box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sure: Option<Vec<Piece>>,
 }
 
 /// What keeps robots out, and links too unless it is an obstacle.

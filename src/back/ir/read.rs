@@ -164,7 +164,8 @@ fn pieces(pieces: Vec<Piece>) -> Result<ir::Shape> {
 }
 
 fn region(region: Region) -> Result<ir::Region> {
-    Ok(ir::Region { name: region.name, doc: region.doc, shape: pieces(region.pieces)? })
+    let sure = region.sure.map(pieces).transpose()?;
+    Ok(ir::Region { name: region.name, doc: region.doc, shape: pieces(region.pieces)?, sure })
 }
 
 fn blocker(blocker: Blocker) -> Result<ir::Blocker> {

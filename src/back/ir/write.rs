@@ -79,7 +79,8 @@ fn piece(piece: &ir::Piece) -> Piece {
 }
 
 fn region(region: &ir::Region) -> Region {
-    Region { name: region.name.clone(), doc: region.doc.clone(), pieces: pieces(&region.shape) }
+    let sure = region.sure.as_ref().map(pieces);
+    Region { name: region.name.clone(), doc: region.doc.clone(), pieces: pieces(&region.shape), sure }
 }
 
 fn blocker(blocker: &ir::Blocker) -> Blocker {

@@ -73,6 +73,7 @@ pub fn problem(name: &str) -> Problem {
         name: "<goal> & co".into(),
         doc: String::new(),
         shape: shape(Piece::Polytope(boxed((8.0, 11.0), (5.0, 7.5)))),
+        sure: None,
     };
     Problem {
         name: name.into(),

@@ -58,9 +58,9 @@ impl<'a> Scene<'a> {
         let sections = sections(problem, plan);
         let shown = if projection.axes().is_some() { &sections[..] } else { &[] };
         let mirrors: Vec<Outline> = shown.iter().map(|(_, s)| s.mirrored(&projection)).collect();
-        let region = |name: &'a str, shape: &Shape| {
+        let region = |name: &'a str, shape: &Shape, sure: &Shape| {
             let copy = |(_, section): &(&str, Section)| {
-                shape.pieces.iter().filter_map(|piece| shrunk(piece, section, &projection)).collect()
+                sure.pieces.iter().filter_map(|piece| shrunk(piece, section, &projection)).collect()
             };
             Still { name, pieces: outlines(shape, &projection), copies: shown.iter().map(copy).collect() }
         };
@@ -74,7 +74,7 @@ impl<'a> Scene<'a> {
             plan,
             projection,
             workspace: Outline::of_polytope(&problem.workspace, &projection),
-            regions: problem.regions.values().map(|r| region(&r.name, &r.shape)).collect(),
+            regions: problem.regions.values().map(|r| region(&r.name, &r.shape, r.sure())).collect(),
             blockers: problem.blockers.values().map(|b| (b.kind, blocker(&b.name, &b.shape))).collect(),
             bases: problem.bases.values().map(|b| (b.name.as_str(), projection.of(&b.position))).collect(),
             robots: movers(problem, plan, &projection),

@@ -55,8 +55,10 @@ pub(in crate::check) fn misplaced_uncertainty(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::check::misplaced_uncertainty", message, span, "not here")
 }
 
-pub(in crate::check) fn uncertain_target(span: Span) -> Diagnostic {
-    super::unsupported("an uncertain region or workspace", span)
+pub(in crate::check) fn nothing_sure(span: Span) -> Diagnostic {
+    let message = "no point is certain to be in the workspace";
+    Diagnostic::error("dosm::check::empty_shape", message, span, "so uncertain that nothing is left")
+        .with_help("make the ball larger, or its uncertainty smaller")
 }
 
 pub(in crate::check) fn negative_uncertainty(span: Span) -> Diagnostic {
