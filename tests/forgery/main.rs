@@ -12,4 +12,5 @@ mod sampling;
 mod scene;
 mod sharp;
 mod threats;
+mod uncertain;
 mod words;
