@@ -5,6 +5,9 @@ use super::labels::{Places, Rect};
 use super::layout::{Layout, SMALL};
 use super::text;
 
+/// How far a number may reach beyond its panel, in pixels: less than the picture's margin.
+const OVERHANG: f64 = 14.0;
+
 /// Draws the grid behind everything.
 pub fn grid(canvas: &mut Canvas, view: &View) {
     let ((x, y), [w, h]) = (view.corner, view.size);
@@ -27,7 +30,10 @@ pub fn marks(canvas: &mut Canvas, view: &View, places: &mut Places) {
     for (value, number) in ticks(view.low[0], w / view.scale, w) {
         let at = view.pixel([value, 0.0]).0;
         marks += &format!("M{} {}v5", px(at), px(bottom));
-        small(canvas, places, (at, bottom + 19.0), "tick mid", &number, -0.5);
+        // A long number at the right end moves inwards, so that it stays in the picture.
+        let half = 0.5 * text::width(&number, SMALL, false);
+        let middle = at.min(x + w + OVERHANG - half);
+        small(canvas, places, (middle, bottom + 19.0), "tick mid", &number, -0.5);
     }
     for (value, number) in ticks(view.low[1], h / view.scale, h) {
         let at = view.pixel([0.0, value]).1;

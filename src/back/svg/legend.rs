@@ -7,7 +7,7 @@ use super::scene::Scene;
 use super::stills;
 use super::text;
 use super::ways::{MARK, START, arrow};
-use crate::ir::BlockerKind;
+use crate::ir::{BlockerKind, Connectivity, Norm};
 
 /// The most robots listed by name.
 const MOST_ROBOTS: usize = 24;
@@ -102,6 +102,29 @@ fn robots(scene: &Scene) -> Vec<Entry> {
     entries
 }
 
+/// What a link is, and what is asked of all of them.
+fn links(asked: Option<&Connectivity>) -> String {
+    let Some(Connectivity { hops, range, redundancy, every }) = asked else { return "radio link".into() };
+    let many = |count: u32, one: &str, more: &str| {
+        if count == 1 { format!("1 {one}") } else { format!("{count} {more}") }
+    };
+    let range = range.as_ref().map(|range| {
+        let axes = if range.norm == Norm::Infinity { " along each axis" } else { "" };
+        format!("at most {} m{axes}", number(range.length.to_f64()))
+    });
+    let hops = hops.map(|hops| format!("{} to a base", many(hops, "link", "links")));
+    let lost = (*redundancy > 0).then(|| format!("{} may be lost", many(*redundancy, "robot", "robots")));
+    let every = (*every > 1).then(|| format!("asked every {every} steps"));
+    let parts: Vec<String> = [range, hops, lost, every].into_iter().flatten().collect();
+    if parts.is_empty() { "radio link".into() } else { format!("radio link ({})", parts.join(", ")) }
+}
+
+/// A number of metres to the millimetre, without trailing zeros.
+fn number(metres: f64) -> String {
+    let text = format!("{metres:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').into()
+}
+
 /// What the ways are drawn with.
 fn moving(scene: &Scene, extras: Extras) -> Vec<Entry> {
     let mut entries = Vec::new();
@@ -118,7 +141,7 @@ fn moving(scene: &Scene, extras: Extras) -> Vec<Entry> {
     }
     add(Swatch::Tube, "where it can be");
     if extras.links {
-        add(Swatch::Link, "radio link");
+        add(Swatch::Link, &links(scene.problem.connectivity.as_ref()));
     }
     if extras.space {
         add(Swatch::Shadow, "its shadow on the floor");
@@ -229,4 +252,25 @@ fn grouped(canvas: &mut Canvas, color: &str, paths: &[(&str, String)]) {
 /// A box by the middle of its left edge.
 fn boxed(x: f64, y: f64, width: f64, height: f64) -> String {
     format!("M{} {}h{}v{}h{}Z", px(x), px(y - height / 2.0), px(width), px(height), px(-width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Rational;
+    use crate::ir::Range;
+
+    #[test]
+    fn a_link_says_what_is_asked_of_it() {
+        let plain = Connectivity { hops: None, range: None, redundancy: 0, every: 1 };
+        assert_eq!(links(None), "radio link");
+        assert_eq!(links(Some(&plain)), "radio link");
+        let range = |norm| Some(Range { length: Rational::ratio(21, 4), norm });
+        let round = Connectivity { range: range(Norm::Euclidean), ..plain.clone() };
+        assert_eq!(links(Some(&round)), "radio link (at most 5.25 m)");
+        let all = Connectivity { hops: Some(2), range: range(Norm::Infinity), redundancy: 1, every: 4 };
+        let said = "radio link (at most 5.25 m along each axis, 2 links to a base, 1 robot may be lost, \
+                    asked every 4 steps)";
+        assert_eq!(links(Some(&all)), said);
+    }
 }
