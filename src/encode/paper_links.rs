@@ -93,6 +93,7 @@ impl StepLinks {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Link;
     use super::*;
     use rustsat::solvers::{SolveIncremental, SolverResult};
     use rustsat_batsat::BasicSolver;
@@ -130,17 +131,32 @@ mod tests {
             relays.any(|r| self.linked(r, b) && self.walk(a, r, links - 1))
         }
 
-        /// Whether each robot reaches a base by so many links, breadth first.
-        fn connected(&self, hops: usize) -> bool {
+        /// Whether each robot that is not lost reaches a base by so many links without those that
+        /// are, breadth first.
+        fn connected(&self, hops: usize, lost: &[usize]) -> bool {
             let mut reached: Vec<bool> = (0..self.nodes).map(|node| node >= self.robots).collect();
             for _ in 0..hops.min(self.nodes) {
                 let before = reached.clone();
-                for &(a, b) in &self.links {
+                let left = |&&(a, b): &&(usize, usize)| !lost.contains(&a) && !lost.contains(&b);
+                for &(a, b) in self.links.iter().filter(left) {
                     reached[a] |= before[b];
                     reached[b] |= before[a];
                 }
             }
-            reached.into_iter().all(|r| r)
+            reached.into_iter().enumerate().all(|(node, r)| r || lost.contains(&node))
+        }
+
+        /// The literals of the links that are there, and the negated ones of those that are not.
+        fn forced(&self, links: &StepLinks) -> Vec<Lit> {
+            let ends = |link| match link {
+                Link::Robots(a, b) => (index(a), index(b)),
+                Link::Base(a, b) => (index(a), self.robots + index(b)),
+            };
+            let forced = |(link, lit): (Link, Lit)| {
+                let (a, b) = ends(link);
+                if self.linked(a, b) { lit } else { !lit }
+            };
+            links.iter().map(forced).collect()
         }
     }
 
@@ -164,28 +180,31 @@ mod tests {
     #[test]
     fn erratum_p9_robots_are_connected_exactly_if_a_search_says_so() {
         for_all_graphs(|graph| {
-            for hops in [1, 2, usize::MAX] {
+            for (hops, new) in [1, 2, usize::MAX]
+                .into_iter()
+                .flat_map(|hops| [StepLinks::new, StepLinks::paper].into_iter().map(move |new| (hops, new)))
+            {
                 let mut circuit = Circuit::default();
-                let bases = graph.nodes - graph.robots;
-                let (links, reached) = StepLinks::paper(&mut circuit, graph.robots, bases, hops);
+                let (links, reached) = new(&mut circuit, graph.robots, graph.nodes - graph.robots, hops);
                 reached.into_iter().for_each(|bit| circuit.require(bit));
-                let forced: Vec<Lit> = links
-                    .iter()
-                    .map(|(link, lit)| {
-                        let (a, b) = match link {
-                            super::super::Link::Robots(a, b) => (index(a), index(b)),
-                            super::super::Link::Base(a, b) => (index(a), graph.robots + index(b)),
-                        };
-                        if graph.linked(a, b) { lit } else { !lit }
-                    })
-                    .collect();
-                let connected = graph.connected(hops);
-                assert_eq!(
-                    satisfiable(&mut solver(&mut circuit), &forced),
-                    connected,
-                    "{:?} {hops}",
-                    graph.links
-                );
+                let found = satisfiable(&mut solver(&mut circuit), &graph.forced(&links));
+                assert_eq!(found, graph.connected(hops, &[]), "{:?} {hops}", graph.links);
+            }
+        });
+    }
+
+    #[test]
+    fn robots_outlive_others_exactly_if_a_search_says_so() {
+        for_all_graphs(|graph| {
+            for (hops, lost) in [1, 2, usize::MAX].into_iter().flat_map(|h| [(h, 0), (h, 1)]) {
+                let mut circuit = Circuit::default();
+                let (mut links, _) =
+                    StepLinks::new(&mut circuit, graph.robots, graph.nodes - graph.robots, hops);
+                let id = crate::entity::EntityId::new(lost);
+                let reached = links.reached(&mut circuit, hops, &[id]);
+                reached.into_iter().for_each(|bit| circuit.require(bit));
+                let found = satisfiable(&mut solver(&mut circuit), &graph.forced(&links));
+                assert_eq!(found, graph.connected(hops, &[lost]), "{:?} {hops} {lost}", graph.links);
             }
         });
     }
