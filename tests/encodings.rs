@@ -109,12 +109,8 @@ const LEFT_OUT: [(&str, &str); 9] = [
 
 /// Missions whose plan has more steps with cells: with half-spaces a robot cuts a corner of a blocker
 /// along a diagonal, and the coarse cells beside it are not clear as a whole.
-const LONGER: [(&str, usize); 4] = [
-    ("relay_round_pillar.dosm", 1),
-    ("thin_wall.dosm", 1),
-    ("table1-4.dosm", 1),
-    ("table1-6.dosm", 1),
-];
+const LONGER: [(&str, usize); 4] =
+    [("relay_round_pillar.dosm", 1), ("thin_wall.dosm", 1), ("table1-4.dosm", 1), ("table1-6.dosm", 1)];
 
 /// The missions of a directory, by name.
 fn missions(directory: &str) -> Vec<(String, String)> {
