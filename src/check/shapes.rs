@@ -158,7 +158,8 @@ impl Checker<'_> {
     fn piece(&mut self, piece: &Piece, scope: &Scope) -> Result<typed::Piece, Reported> {
         let shape = match &piece.kind {
             PieceKind::Ball { center, radius, norm, disc } => {
-                self.ball(center, radius, norm, *disc, scope)?
+                let ball = self.ball_numbers(center, radius, norm, *disc, scope)?;
+                self.ball(ball, center.span)?
             }
             _ => typed::Piece::Polytope(self.polytope(piece, scope)?),
         };
@@ -251,23 +252,13 @@ impl Checker<'_> {
     }
 
     /// Every ball that it may be: box(center ± spread) ⊕ ball(radius + growth).
-    fn ball(
-        &mut self,
-        center: &Point,
-        radius: &Coordinate,
-        norm: &Option<Norm>,
-        disc: bool,
-        scope: &Scope,
-    ) -> Result<typed::Piece, Reported> {
-        let ball = self.ball_numbers(center, radius, norm, disc, scope)?;
-        let radius = &ball.radius + &ball.growth;
-        let (middle, spread) = (ball.center, ball.spread);
-        Ok(match ball.norm {
-            BallNorm::Infinity => typed::Piece::Polytope(cube(&middle, &spread, &radius)),
-            BallNorm::One => {
-                typed::Piece::Polytope(self.cross_polytope(&middle, &spread, &radius, center.span)?)
-            }
-            BallNorm::Two => typed::Piece::Ball { center: middle, spread, radius },
+    fn ball(&mut self, ball: BallNumbers, span: Span) -> Result<typed::Piece, Reported> {
+        let BallNumbers { norm, center, spread, radius, growth } = ball;
+        let radius = radius + growth;
+        Ok(match norm {
+            BallNorm::Infinity => typed::Piece::Polytope(cube(&center, &spread, &radius)),
+            BallNorm::One => typed::Piece::Polytope(self.cross_polytope(&center, &spread, &radius, span)?),
+            BallNorm::Two => typed::Piece::Ball { center, spread, radius },
         })
     }
 
