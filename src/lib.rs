@@ -27,7 +27,8 @@
 //!    it, is a plan: half-spaces, clauses, and the loop between the Boolean and the convex solver.
 //! 6. [`plan`] is what comes out, with a witness for everything that it claims.
 //! 7. [`verify`] believes none of the above: it checks a plan against a problem in exact arithmetic.
-//! 8. [`back`] draws it.
+//! 8. [`law`] is what goes on the robot: one source file, its tables, and a proved bound on its rounding.
+//! 9. [`back`] draws it.
 //!
 //! [`driver`] is this chain as code. [`cli`] is the command line around it.
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
@@ -65,6 +66,7 @@ pub mod explain;
 pub mod geometry;
 pub mod ir;
 pub mod json;
+pub mod law;
 pub mod lower;
 pub mod plan;
 pub mod quantity;

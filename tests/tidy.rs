@@ -14,7 +14,7 @@ const BASE: [&str; 7] = ["diag", "entity", "entity_id", "exact", "json", "quanti
 ///
 /// `verify` never sees what tube, abstraction, encode or solve computed; no back end sees the
 /// syntax tree; nothing sees the command line.
-const MAY_NAME: [(&str, &[&str]); 22] = [
+const MAY_NAME: [(&str, &[&str]); 23] = [
     ("entity", &[]),
     ("exact", &[]),
     ("source", &[]),
@@ -29,7 +29,9 @@ const MAY_NAME: [(&str, &[&str]); 22] = [
     // `lower` for its normal form, in which goals that say nothing are seen.
     ("check", &["syntax", "typed", "geometry", "ir", "lower"]),
     ("lower", &["typed", "check", "geometry", "ir"]),
-    ("tube", &["ir", "geometry"]),
+    ("law", &["ir", "geometry"]),
+    // `law` for what its reserve has to hold.
+    ("tube", &["ir", "geometry", "law"]),
     ("abstraction", &["ir", "geometry", "tube"]),
     ("encode", &["ir", "geometry", "tube", "abstraction"]),
     ("plan", &["ir", "geometry", "tube", "abstraction", "encode"]),
