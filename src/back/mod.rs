@@ -46,6 +46,13 @@ pub struct Artifact {
     pub contents: String,
 }
 
+/// A simulated run, for pictures.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Flight {
+    /// By robot, in the problem's order, and sample: its position in metres, one entry a coordinate.
+    pub ways: Vec<Vec<Vec<f64>>>,
+}
+
 /// A mission's file name with an extension: its name, with `_` for what is no good in file names.
 pub fn file_name(mission: &str, extension: &str) -> String {
     let safe = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };

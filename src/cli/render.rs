@@ -112,7 +112,7 @@ fn draw(
         Encoding::HalfSpaces => Vec::new(),
         Encoding::Paper => driver::cells_of(problem).map_err(|e| fail(super::usage(e.to_string())))?,
     };
-    let text = svg::draw(problem, plan, &svg::Options { cells: &cells }).contents;
+    let text = svg::draw(problem, plan, &svg::Options { cells: &cells, ..Default::default() }).contents;
     let bytes = match format {
         Format::Svg => text.into_bytes(),
         Format::Png => png::from_svg(&text).map_err(fail)?,

@@ -203,7 +203,11 @@ impl Ending<'_> {
 
     fn plan(&self, plan: &Plan, shortest: bool, destination: &Destination) -> Result<Status, Status> {
         let started = Instant::now();
-        let picture = svg::draw(&self.mission.problem, plan, &svg::Options { cells: &self.outlines });
+        let picture = svg::draw(
+            &self.mission.problem,
+            plan,
+            &svg::Options { cells: &self.outlines, ..Default::default() },
+        );
         let (files, size) = destination.write(&picture, plan).map_err(|problem| self.output.fail(problem))?;
         self.ledger.note(|run| run.wrote(files.len(), size, started.elapsed()));
         self.note_phases();

@@ -1,6 +1,7 @@
 //! The legend: every mark that the picture uses, and no other.
 
 use super::canvas::{Canvas, Pixel, open, px};
+use super::flights;
 use super::layout::{FONT, Layout};
 use super::mark;
 use super::scene::Scene;
@@ -39,6 +40,8 @@ enum Swatch {
     Start,
     /// Where a robot can be at the steps and between them.
     Tube,
+    /// Simulated runs.
+    Runs,
     /// A link.
     Link,
     /// A shadow.
@@ -58,6 +61,8 @@ pub struct Extras {
     pub links: bool,
     /// The cells of a partition.
     pub cells: bool,
+    /// How many simulated runs.
+    pub runs: usize,
     /// Shadows on the floor, in space.
     pub space: bool,
 }
@@ -140,6 +145,11 @@ fn moving(scene: &Scene, extras: Extras) -> Vec<Entry> {
         add(Swatch::Ring, "the loop begins");
     }
     add(Swatch::Tube, "where it can be");
+    match extras.runs {
+        0 => {}
+        1 => add(Swatch::Runs, "a simulated run"),
+        many => add(Swatch::Runs, &format!("{many} simulated runs")),
+    }
     if extras.links {
         add(Swatch::Link, &links(scene.problem.connectivity.as_ref()));
     }
@@ -222,6 +232,12 @@ fn swatch(canvas: &mut Canvas, (x, y): Pixel, swatch: &Swatch) {
             ));
             let ends = [boxed(x, y, 16.0, 16.0), boxed(x + SWATCH - 16.0, y, 16.0, 16.0)].concat();
             canvas.add(&format!(r#"<g class="tube" stroke="{GREY}"><path d="{ends}"/></g>"#));
+        }
+        Swatch::Runs => {
+            let line = |dy: f64| open(&[(x, y + dy), (x + SWATCH / 2.0, y - dy / 2.0), (x + SWATCH, y + dy)]);
+            canvas.add(&flights::group(GREY));
+            [-3.0, 0.0, 3.0].iter().for_each(|dy| canvas.path("", &line(*dy)));
+            canvas.add("</g>");
         }
         Swatch::Link => {
             canvas.add(&format!(r#"<g class="beam"><path d="{}"/></g>"#, boxed(x, y, SWATCH, 14.0)));

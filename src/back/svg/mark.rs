@@ -7,6 +7,9 @@ use super::layout::FONT;
 /// jammers and regions have. The classes `r0`, `r1` … are darker ones for text.
 const COLORS: [&str; 5] = ["#0072b2", "#e69f00", "#cc79a7", "#222222", "#56b4e9"];
 
+/// The same, darker: those of the classes `r0`, `r1` …
+const DARK: [&str; 5] = ["#005a8c", "#7d5600", "#8a3d68", "#222222", "#1b658f"];
+
 /// Shapes by their corners: how many, and the angle of the first one in degrees. None for a circle.
 const SHAPES: [Option<(usize, f64)>; 6] =
     [None, Some((4, 45.0)), Some((3, -90.0)), Some((4, 0.0)), Some((3, 90.0)), Some((6, 0.0))];
@@ -14,6 +17,11 @@ const SHAPES: [Option<(usize, f64)>; 6] =
 /// The colour of a robot's lines.
 pub fn color(robot: usize) -> &'static str {
     COLORS[robot % COLORS.len()]
+}
+
+/// The colour of a robot's thin lines over its others, as dark as its name.
+pub fn dark(robot: usize) -> &'static str {
+    DARK[robot % DARK.len()]
 }
 
 /// The class of a robot's name and numbers.

@@ -13,6 +13,7 @@
 mod axes;
 mod canvas;
 mod cells;
+mod flights;
 mod labels;
 mod layout;
 mod legend;
@@ -34,7 +35,7 @@ mod sample;
 #[cfg(test)]
 mod tests;
 
-use crate::back::Artifact;
+use crate::back::{Artifact, Flight};
 use crate::exact::Rational;
 use crate::ir::Problem;
 use crate::plan::Plan;
@@ -55,12 +56,14 @@ pub const NAME: &str = "plan.svg";
 pub struct Options<'a> {
     /// The cells of a partition of the workspace, drawn as thin outlines under everything else.
     pub cells: &'a [Cell],
+    /// Simulated runs, drawn as thin lines over the nominal ways.
+    pub runs: &'a [Flight],
 }
 
 /// Draws a plan of a problem.
 pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
     if problem.dimension > 2 {
-        return Artifact { name: NAME.into(), contents: space::draw(problem, plan) };
+        return Artifact { name: NAME.into(), contents: space::draw(problem, plan, options.runs) };
     }
     let scene = Scene::new(problem, plan, Projection::TOP);
     let layout = Layout::new(&scene.workspace);
@@ -69,7 +72,12 @@ pub fn draw(problem: &Problem, plan: &Plan, options: &Options) -> Artifact {
     main_panel(&mut canvas, &layout, &scene, options);
     let moments = moments::choose(&scene, MOMENTS);
     let with_links = moments.iter().any(|m| !scene.links(m.step).is_empty());
-    let extras = legend::Extras { links: with_links, cells: !options.cells.is_empty(), space: false };
+    let extras = legend::Extras {
+        links: with_links,
+        cells: !options.cells.is_empty(),
+        runs: options.runs.len(),
+        space: false,
+    };
     let bottom = legend::draw(&mut canvas, &layout, &scene, extras).max(layout.main_bottom());
     let bottom = panels::draw(&mut canvas, &layout, &scene, &moments, bottom + 14.0);
     let contents = file(&layout, bottom, &scene, &canvas.finish());
@@ -94,6 +102,7 @@ fn main_panel(canvas: &mut Canvas, layout: &Layout, scene: &Scene, options: &Opt
     stills::frame(canvas, view, scene);
     stills::bases(canvas, view, scene, mark::MAST);
     ways::draw(canvas, view, scene, &|_, _, _| true);
+    flights::draw(canvas, view, scene, options.runs);
     let mut places = Places::new(label_area(layout));
     axes::draw(canvas, layout, &mut places);
     labels_of(canvas, view, scene, &mut places);

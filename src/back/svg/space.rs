@@ -9,7 +9,8 @@ use super::outline::Point;
 use super::projection::Projection;
 use super::scene::Scene;
 use super::solids::Stack;
-use super::{axes, legend, mark, moments, panels, solids, stills, text, ways};
+use super::{axes, flights, legend, mark, moments, panels, solids, stills, text, ways};
+use crate::back::Flight;
 use crate::exact::Rational;
 use crate::ir::Problem;
 use crate::plan::Plan;
@@ -24,16 +25,16 @@ const HIGHEST: f64 = 640.0;
 const BESIDE: f64 = 215.0;
 
 /// Draws a plan of a problem in space: the whole file.
-pub fn draw(problem: &Problem, plan: &Plan) -> String {
+pub fn draw(problem: &Problem, plan: &Plan, runs: &[Flight]) -> String {
     let space = Scene::new(problem, plan, Projection::axonometric());
     let layout = Layout::new(&space.workspace);
     let room = Room::new(problem);
     let mut canvas = Canvas::default();
     super::title(&mut canvas, &layout, &space);
-    axonometric(&mut canvas, &layout, &space, &room);
+    axonometric(&mut canvas, &layout, &space, &room, runs);
     let moments = moments::choose(&space, MOMENTS);
     let links = moments.iter().any(|m| !space.links(m.step).is_empty());
-    let extras = legend::Extras { links, cells: false, space: true };
+    let extras = legend::Extras { links, cells: false, runs: runs.len(), space: true };
     let bottom = views(&mut canvas, &layout, problem, plan, &room, extras);
     let bottom = panels::draw(&mut canvas, &layout, &space, &moments, bottom + 14.0);
     super::file(&layout, bottom, &space, &canvas.finish())
@@ -62,7 +63,7 @@ impl Room {
     }
 }
 
-fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room) {
+fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room, runs: &[Flight]) {
     let (view, projection) = (&layout.main, &scene.projection);
     solids::room(canvas, view, scene.problem, projection, false);
     let ends = |axis: usize| {
@@ -87,6 +88,7 @@ fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room)
         ways::draw(canvas, view, scene, &shown);
         stack.draw(canvas, view, layer);
     }
+    flights::draw(canvas, view, scene, runs);
     stills::bases(canvas, view, scene, mark::MAST);
     solids::room(canvas, view, scene.problem, projection, true);
     let (x, y) = view.corner;

@@ -4,6 +4,7 @@ use super::projection::Projection;
 use super::sample::{link, plan, problem};
 use super::scene::Scene;
 use super::{Options, draw, moments};
+use crate::back::Flight;
 use crate::plan::Label;
 
 #[test]
@@ -48,7 +49,7 @@ fn a_plan_that_does_not_fit_its_problem_is_still_drawn() {
 #[test]
 fn cells_lie_under_everything_else() {
     let cells = [vec![[0.0, 0.0], [6.0, 0.0], [6.0, 8.0]]];
-    let text = draw(&problem("small"), &plan(), &Options { cells: &cells }).contents;
+    let text = draw(&problem("small"), &plan(), &Options { cells: &cells, ..Default::default() }).contents;
     let outline = format!("M{}L{}L{}Z", pixel(0.0, 0.0), pixel(6.0, 0.0), pixel(6.0, 8.0));
     let at = |part: &str| text.find(part).expect(part);
     assert!(at(&outline) < at(r#"class="region""#));
@@ -204,4 +205,23 @@ fn shadows_lie_on_the_floor_below_the_ways() {
     let text = drawn_in_space();
     assert_eq!(paths(&text, "shadow").len(), 1 + 1, "one a robot, one in the legend");
     assert!(text.contains(r#"<path class="stem""#));
+}
+
+#[test]
+fn simulated_runs_are_thin_lines_of_their_own() {
+    let (problem, plan) = (problem("small"), plan());
+    let nominal = draw(&problem, &plan, &Options::default()).contents;
+    let way = vec![vec![1.0, 2.0], vec![2.0, 2.5], vec![4.0, 2.0]];
+    let runs = vec![Flight { ways: vec![way; plan.robots.len()] }; 3];
+    let drawn = draw(&problem, &plan, &Options { runs: &runs, ..Default::default() }).contents;
+    assert!(roxmltree::Document::parse(&drawn).is_ok());
+    assert!(drawn.contains("3 simulated runs") && !nominal.contains("simulated"));
+    let thin = |text: &str| text.matches(r#"stroke-width=".7""#).count();
+    assert_eq!(
+        (thin(&nominal), thin(&drawn)),
+        (0, plan.robots.len() + 1),
+        "one group a robot, and the legend"
+    );
+    let more = paths(&drawn, "").len() - paths(&nominal, "").len();
+    assert!(more >= 3 * plan.robots.len() + 3, "{more}");
 }
