@@ -12,9 +12,11 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::abstraction::{self, Abstraction, Fineness, Partition};
+use crate::back::{Artifact, controller};
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, Reported};
 use crate::ir::{self, Problem, Spans, Violation};
+use crate::law::{Float, Misfit};
 use crate::lower;
 use crate::plan::{self, Nominal, Plan};
 use crate::solve::{self, Outcome, Phase, Reason, Statistics, Watch};
@@ -34,6 +36,8 @@ pub struct Overrides {
     pub set: Vec<(String, String)>,
     /// The lengths to try instead of the mission's.
     pub horizon: Option<(usize, usize)>,
+    /// What the robots' controllers compute with: the tubes have room for its rounding.
+    pub float: Float,
 }
 
 /// What the Boolean part of a search speaks of.
@@ -108,15 +112,21 @@ pub fn load(
     diagnostics: &mut Diagnostics,
 ) -> Result<Mission, Reported> {
     let (problem, spans) = problem(source, overrides, diagnostics)?;
-    prepare(problem, spans, diagnostics)
+    prepare(problem, spans, overrides.float, diagnostics)
 }
 
-/// Makes the tubes of a problem, and looks at its first step.
+/// Makes the tubes of a problem, with room for the rounding of controllers in a float type, and looks
+/// at its first step.
 ///
 /// # Errors
 /// [`Reported`] when a model has no tube, or the mission is lost at its first step.
-pub fn prepare(problem: Problem, spans: Spans, diagnostics: &mut Diagnostics) -> Result<Mission, Reported> {
-    let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
+pub fn prepare(
+    problem: Problem,
+    spans: Spans,
+    float: Float,
+    diagnostics: &mut Diagnostics,
+) -> Result<Mission, Reported> {
+    let tubes = tube::synthesize(&problem, &spans, float, diagnostics)?;
     abstraction::inspect(&problem, &spans, &tubes, diagnostics)?;
     Ok(Mission { problem, spans, tubes })
 }
@@ -313,7 +323,7 @@ fn cells(abstraction: &Abstraction) -> usize {
 /// [`TooFine`] when there would be too many.
 pub fn cells_of(problem: &Problem) -> Result<Vec<Vec<[f64; 2]>>, TooFine> {
     // Who has a plan that checks has tubes; without them there is nothing to draw.
-    let Ok(tubes) = tube::synthesize(problem, &Spans::default(), &mut Diagnostics::new()) else {
+    let Ok(tubes) = tube::synthesize(problem, &Spans::default(), Float::F64, &mut Diagnostics::new()) else {
         return Ok(Vec::new());
     };
     let abstraction = Abstraction::new(problem, &tubes, BACKOFFS[0]).with_cells(problem, Fineness::Coarse)?;
@@ -329,4 +339,12 @@ fn outlines(problem: &Problem, abstraction: &Abstraction) -> Vec<Vec<[f64; 2]>> 
 /// Checks a plan against a problem, in exact arithmetic.
 pub fn verify(problem: &Problem, plan: &Plan) -> Report {
     verify::verify(problem, plan)
+}
+
+/// The controller of a plan that was checked against the problem.
+///
+/// # Errors
+/// [`Misfit`] where the proof does not go through for controllers that compute with this type.
+pub fn controller(problem: &Problem, plan: &Plan, float: Float) -> Result<Vec<Artifact>, Misfit> {
+    controller::write(problem, plan, float)
 }

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use sha2::{Digest, Sha256};
+
 /// A mission's text with the name that messages call it by.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
@@ -22,12 +24,22 @@ impl SourceFile {
         self.text.get(span.range()).unwrap_or("")
     }
 
+    /// SHA-256 of the text, in lower-case hexadecimal.
+    pub fn sha256(&self) -> String {
+        sha256(&self.text)
+    }
+
     /// Line and column of a byte offset, both from 1; the column counts characters.
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
         let before = self.text.get(..offset as usize).unwrap_or(&self.text);
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
+}
+
+/// SHA-256 of a text, in lower-case hexadecimal.
+pub fn sha256(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A half-open range of bytes of a source file.

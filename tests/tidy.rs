@@ -37,7 +37,7 @@ const MAY_NAME: [(&str, &[&str]); 23] = [
     ("plan", &["ir", "geometry", "tube", "abstraction", "encode"]),
     ("solve", &["ir", "geometry", "tube", "abstraction", "encode", "plan"]),
     ("verify", &["ir", "geometry", "plan"]),
-    ("back", &["ir", "geometry", "plan", "tube", "abstraction", "encode"]),
+    ("back", &["ir", "geometry", "plan", "law", "tube", "abstraction", "encode"]),
     (
         "driver",
         &[

@@ -1,6 +1,7 @@
 //! Back ends: one file a format, problem and plan in, [`Artifact`]s out.
 
 pub mod cnf;
+pub mod controller;
 pub mod ir;
 mod names;
 pub mod smc;

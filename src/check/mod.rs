@@ -31,8 +31,6 @@ mod windows;
 
 use std::collections::BTreeMap;
 
-use sha2::{Digest, Sha256};
-
 use crate::check::constants::Constant;
 use crate::check::expression::{Binding, Scope};
 use crate::check::families::Family;
@@ -282,7 +280,7 @@ impl<'a> Checker<'a> {
         Ok(typed::Mission {
             name: self.settings.name.clone().unwrap_or_else(|| stem(&self.source.name)),
             doc: doc_text(&self.file.doc),
-            sha256: sha256(&self.source.text),
+            sha256: self.source.sha256(),
             set: set.iter().cloned().collect::<BTreeMap<_, _>>(),
             step,
             workspace,
@@ -311,8 +309,4 @@ fn stem(name: &str) -> String {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = file.strip_suffix(".dosm").unwrap_or(file);
     if stem.is_empty() || stem.starts_with('<') { "mission".into() } else { stem.into() }
-}
-
-fn sha256(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -92,6 +92,41 @@ impl From<Encoding> for crate::driver::Encoding {
     }
 }
 
+/// The numbers that controllers compute with.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Float {
+    /// IEEE double precision
+    F64,
+    /// IEEE single precision, for processors without doubles
+    F32,
+}
+
+impl From<Float> for crate::law::Float {
+    fn from(float: Float) -> Self {
+        match float {
+            Float::F64 => crate::law::Float::F64,
+            Float::F32 => crate::law::Float::F32,
+        }
+    }
+}
+
+/// What `compile` can write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// The mission in another tool's format.
+    Mission(Emit),
+    /// The controller of a plan.
+    Controller,
+}
+
+impl Format {
+    /// All there are, with their names on the command line.
+    fn all() -> impl Iterator<Item = (&'static str, Format)> {
+        let missions = Emit::ALL.iter().map(|emit| (emit.name(), Format::Mission(*emit)));
+        missions.chain([("controller", Format::Controller)])
+    }
+}
+
 /// The commands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
@@ -111,8 +146,14 @@ pub enum Command {
         #[arg(short, long, value_name = "DIR")]
         output: PathBuf,
         /// What to write, separated by commas; everything when left out
-        #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = emit_parser())]
-        emit: Vec<Emit>,
+        #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = format_parser())]
+        emit: Vec<Format>,
+        /// The plan, a `plan.json`, whose controller is to be written; it is checked first
+        #[arg(long, value_name = "PLAN")]
+        plan: Option<PathBuf>,
+        /// What the controller computes with; refused where its rounding does not fit the plan
+        #[arg(long, value_enum, default_value_t = Float::F64, value_name = "TYPE", requires = "plan")]
+        float: Float,
         /// For plans of this length only, whatever the horizon says
         #[arg(long, value_name = "L", value_parser = parse_length)]
         length: Option<usize>,
@@ -132,6 +173,9 @@ pub enum Command {
         /// partition as in the paper
         #[arg(long, value_enum, value_name = "WHICH", help_heading = "Search")]
         encoding: Option<Encoding>,
+        /// What the controller will compute with: the tubes get room for its rounding
+        #[arg(long, value_enum, default_value_t = Float::F64, value_name = "TYPE", help_heading = "Search")]
+        float: Float,
         /// Write the picture as plan.png too (a dosmc built with `--features png`)
         #[arg(long, help_heading = "Output")]
         png: bool,
@@ -195,10 +239,11 @@ fn parse_set(text: &str) -> Result<(String, String), String> {
     Ok((name.into(), value.into()))
 }
 
-/// One of the back ends' names.
-fn emit_parser() -> impl TypedValueParser<Value = Emit> {
-    let named = |name: String| Emit::ALL.iter().copied().find(|e| e.name() == name).ok_or("no such format");
-    PossibleValuesParser::new(Emit::ALL.iter().map(|e| e.name())).try_map(named)
+/// One of the formats' names.
+fn format_parser() -> impl TypedValueParser<Value = Format> {
+    let named =
+        |name: String| Format::all().find(|(n, _)| *n == name).map(|(_, f)| f).ok_or("no such format");
+    PossibleValuesParser::new(Format::all().map(|(name, _)| name)).try_map(named)
 }
 
 /// The longest plan that may be asked for (language.md §2).

@@ -1,20 +1,22 @@
 //! `dosmc compile`: from a mission to files of other formats.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use super::args::Format;
 use super::files::OutputDirectory;
 use super::mission::Opening;
 use super::output::{Output, plain_error};
 use super::overseer::Overseer;
 use super::stats::{Ledger, peak_rss_mib};
-use super::{Status, output, phases};
+use super::{Status, output, phases, verify};
 use crate::back::{Artifact, Emit};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Encoding, NotWritten, Overrides, TooLarge};
+use crate::law::{Float, Misfit};
 use crate::source::SourceFile;
 
 /// What `compile --json` prints.
@@ -31,11 +33,32 @@ pub(super) struct JsonCompile {
 /// What is to be written.
 pub struct Wanted {
     /// The formats; all that there are when empty.
-    pub emit: Vec<Emit>,
+    pub emit: Vec<Format>,
+    /// The plan whose controller is wanted.
+    pub plan: Option<PathBuf>,
+    /// What the controller computes with.
+    pub float: Float,
     /// The length of the plans, for formats that speak of one or several.
     pub length: Option<usize>,
     /// What instances speak of.
     pub encoding: Encoding,
+}
+
+impl Wanted {
+    /// What is wrong with it, for a mission.
+    fn contradiction(&self, mission: &Path) -> Option<&'static str> {
+        let controller = self.emit.contains(&Format::Controller);
+        match &self.plan {
+            None if controller => Some("a controller is a plan's: name the plan with `--plan plan.json`"),
+            Some(_) if !controller && !self.emit.is_empty() => {
+                Some("`--plan` is for the controller, which `--emit` leaves out")
+            }
+            Some(plan) if plan == Path::new("-") && mission == plan => {
+                Some("the plan and the mission can't both come from standard input")
+            }
+            _ => None,
+        }
+    }
 }
 
 /// Writes a mission in the formats wanted.
@@ -47,7 +70,8 @@ pub fn compile(
     timeout: Option<Duration>,
     output: &Output,
 ) -> Status {
-    let directory = match OutputDirectory::probe(directory) {
+    let probed = wanted.contradiction(path).map_or(Ok(()), |why| Err(super::usage(why)));
+    let directory = match probed.and_then(|()| OutputDirectory::probe(directory)) {
         Ok(directory) => directory,
         Err(problem) => return output.fail(problem),
     };
@@ -59,7 +83,11 @@ pub fn compile(
         let started = Instant::now();
         overseer.enter("writing");
         let artifacts = artifacts(&mission, &source, wanted);
-        let artifacts = artifacts.map_err(|why| overseer.aside(|| output.fail(not_written(why))))?;
+        let mut artifacts = artifacts.map_err(|why| overseer.aside(|| output.fail(not_written(why))))?;
+        if let Some(plan) = &wanted.plan {
+            overseer.enter("checking the plan exactly");
+            artifacts.extend(overseer.aside(|| controller(plan, &mission, wanted.float, output))?);
+        }
         let size = artifacts.iter().map(|a| a.contents.len()).sum();
         ledger.note(|run| run.wrote(artifacts.len(), size, started.elapsed()));
         Ok(artifacts)
@@ -72,14 +100,54 @@ pub fn compile(
     done.unwrap_or_else(|status| status)
 }
 
+/// The files of the controller of a plan, which is checked first.
+fn controller(
+    path: &Path,
+    mission: &driver::Mission,
+    float: Float,
+    output: &Output,
+) -> Result<Vec<Artifact>, Status> {
+    let plan = verify::read_plan(path)
+        .map_err(|problem| output.fail(problem))?
+        .map_err(|malformed| output.fail_with(malformed, Status::Refused))?;
+    let report = driver::verify(&mission.problem, &plan);
+    if !report.holds() {
+        let problem = plain_error("dosm::plan::refused", "the plan does not check: no controller is written")
+            .with_help(format!(
+                "`dosmc verify` says why: {}",
+                report.to_string().lines().next().unwrap_or_default()
+            ));
+        return Err(output.fail_with(problem, Status::Refused));
+    }
+    let artifacts = driver::controller(&mission.problem, &plan, float);
+    artifacts.map_err(|why| output.fail_with(does_not_fit(&why, float), Status::Refused))
+}
+
+/// What is said where a plan's proof does not hold for a controller.
+fn does_not_fit(why: &Misfit, float: Float) -> Diagnostic {
+    let message = format!("no controller in {float}: {why}");
+    let problem = plain_error("dosm::controller::rounding", message);
+    match float {
+        Float::F32 => problem.with_help("`dosmc solve --float f32` makes a plan with room for its rounding"),
+        Float::F64 => problem,
+    }
+}
+
 /// The files wanted, in the order of the formats, each once.
 fn artifacts(
     mission: &driver::Mission,
     source: &SourceFile,
     wanted: &Wanted,
 ) -> Result<Vec<Artifact>, NotWritten> {
-    let named: BTreeSet<Emit> = wanted.emit.iter().copied().collect();
-    let emit = Emit::ALL.iter().filter(|e| named.is_empty() || named.contains(e));
+    let named: BTreeSet<Emit> = wanted
+        .emit
+        .iter()
+        .filter_map(|format| match format {
+            Format::Mission(emit) => Some(*emit),
+            Format::Controller => None,
+        })
+        .collect();
+    let emit = Emit::ALL.iter().filter(|e| wanted.emit.is_empty() || named.contains(e));
     emit.map(|e| driver::compile(mission, source, wanted.encoding, *e, wanted.length)).collect()
 }
 

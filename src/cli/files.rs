@@ -107,6 +107,9 @@ impl OutputDirectory {
         let mut ready = Vec::new();
         for (name, contents) in files {
             let path = self.path.join(name);
+            // A name may lead into directories below.
+            let parent = path.parent().unwrap_or(&self.path);
+            fs::create_dir_all(parent).map_err(|e| unwritable(parent, &e))?;
             let file = self.filled(contents).map_err(|e| unwritable(&path, &e))?;
             ready.push((path, file));
         }

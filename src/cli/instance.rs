@@ -73,6 +73,9 @@ fn contradiction(own: &Reopened, asked: &Overrides, encoding: Option<Encoding>) 
     if encoding.is_some_and(|e| e != own.encoding) {
         return Some("an instance has its encoding already: `--encoding` goes with the mission".into());
     }
+    if asked.float != own.overrides.float {
+        return Some("an instance has its tubes already: `--float` goes with the mission".into());
+    }
     let (from, to) = asked.horizon?;
     let has = match own.overrides.horizon {
         Some((first, last)) if first <= from && to <= last => return None,

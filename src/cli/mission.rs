@@ -85,7 +85,7 @@ impl Opening<'_> {
             let started = Instant::now();
             self.overseer.name_robots(problem.robots.values().map(|r| r.name.clone()).collect());
             self.overseer.enter("making tubes");
-            let mission = driver::prepare(problem, spans, &mut diagnostics);
+            let mission = driver::prepare(problem, spans, self.overrides.float, &mut diagnostics);
             self.ledger.note(|run| run.time_tube = started.elapsed());
             mission
         });

@@ -33,6 +33,7 @@ use clap::error::ErrorKind;
 
 use crate::diag::Diagnostic;
 use crate::driver::Overrides;
+use crate::law::Float;
 use args::{Args, Command};
 use output::Output;
 
@@ -72,17 +73,25 @@ pub fn main() -> ExitCode {
 /// Runs a command.
 fn run(args: Args) -> Status {
     let output = Output::new(&args.common);
-    let overrides = Overrides { set: args.common.set.clone(), horizon: args.common.horizon };
+    let overrides = Overrides {
+        set: args.common.set.clone(),
+        horizon: args.common.horizon,
+        float: match args.command {
+            Command::Solve { float, .. } => float.into(),
+            _ => Float::default(),
+        },
+    };
     if let Some(name) = repeated(&overrides.set) {
         return output.fail(usage(format!("`--set {name}=…` is given twice")));
     }
     let status = match args.command {
         Command::Check { missions } => check::check(&missions, &overrides, args.common.timeout, &output),
-        Command::Compile { mission, output: directory, emit, length, encoding } => {
-            let wanted = compile::Wanted { emit, length, encoding: encoding.into() };
+        Command::Compile { mission, output: directory, emit, plan, float, length, encoding } => {
+            let wanted =
+                compile::Wanted { emit, plan, float: float.into(), length, encoding: encoding.into() };
             compile::compile(&mission, &directory, &wanted, &overrides, args.common.timeout, &output)
         }
-        Command::Solve { mission, output: directory, encoding, png } => {
+        Command::Solve { mission, output: directory, encoding, png, float: _ } => {
             let search =
                 solve::Settings { timeout: args.common.timeout, encoding: encoding.map(Into::into), png };
             solve::solve(&mission, &directory, &overrides, search, &output)

@@ -13,9 +13,10 @@ use super::output::Output;
 use super::overseer::{Cause, LastWords, Overseer};
 use super::stats::{JsonStats, Ledger, peak_rss_mib};
 use super::{Status, phases, png};
-use crate::back::{Artifact, svg};
+use crate::back::{Artifact, controller, svg};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Answer, Encoding, Overrides, Scope, Solved};
+use crate::law::Float;
 use crate::plan::{self, Plan};
 use crate::solve::{Progress, Reason, Statistics, Watch};
 use crate::verify::JsonReport;
@@ -99,13 +100,19 @@ impl Destination {
         Ok(Destination { directory: OutputDirectory::probe(directory)?, png })
     }
 
-    /// Writes the pictures and the plan, the plan itself last: where it is, all is. Gives their paths
-    /// and how many bytes they are.
-    fn write(&self, picture: &Artifact, plan: &Plan) -> Result<(Vec<String>, usize), Diagnostic> {
+    /// Writes the pictures, the controller and the plan, the plan itself last: where it is, all is.
+    /// Gives their paths and how many bytes they are.
+    fn write(
+        &self,
+        picture: &Artifact,
+        controller: &[Artifact],
+        plan: &Plan,
+    ) -> Result<(Vec<String>, usize), Diagnostic> {
         let pixels = if self.png { Some(png::from_svg(&picture.contents)?) } else { None };
         let text = plan::json::write(plan);
         let mut files = vec![(svg::NAME, picture.contents.as_bytes())];
         files.extend(pixels.iter().map(|p| (png::NAME, p.as_slice())));
+        files.extend(controller.iter().map(|a| (a.name.as_str(), a.contents.as_bytes())));
         files.push(("plan.json", text.as_bytes()));
         let written = self.directory.write_bytes(&files)?;
         let size = files.iter().map(|(_, contents)| contents.len()).sum();
@@ -150,7 +157,8 @@ pub fn solve(
     };
     ledger.note(|run| (run.time_verify, run.cells) = (time_verify, cells));
     let (mission, overseer, ledger) = (&mission, &*overseer, &ledger);
-    let ending = Ending { mission, statistics, outlines, overseer, ledger, output };
+    let float = overrides.float;
+    let ending = Ending { mission, statistics, float, outlines, overseer, ledger, output };
     ending.answer(found, &destination).unwrap_or_else(|status| status)
 }
 
@@ -158,6 +166,8 @@ pub fn solve(
 struct Ending<'a> {
     mission: &'a driver::Mission,
     statistics: Statistics,
+    /// What the controller computes with.
+    float: Float,
     /// The cells to draw.
     outlines: Vec<svg::Cell>,
     overseer: &'a Overseer,
@@ -203,18 +213,26 @@ impl Ending<'_> {
 
     fn plan(&self, plan: &Plan, shortest: bool, destination: &Destination) -> Result<Status, Status> {
         let started = Instant::now();
-        let picture = svg::draw(
-            &self.mission.problem,
-            plan,
-            &svg::Options { cells: &self.outlines, ..Default::default() },
-        );
-        let (files, size) = destination.write(&picture, plan).map_err(|problem| self.output.fail(problem))?;
+        let options = svg::Options { cells: &self.outlines, ..Default::default() };
+        let picture = svg::draw(&self.mission.problem, plan, &options);
+        let controller = self.controller(plan);
+        let written = destination.write(&picture, &controller, plan);
+        let (files, size) = written.map_err(|problem| self.output.fail(problem))?;
         self.ledger.note(|run| run.wrote(files.len(), size, started.elapsed()));
         self.note_phases();
         self.output.say(&found(plan, shortest, self.ledger.so_far().encoding, &files))?;
         let (length, loop_start) = (Some(plan.length), Some(plan.loop_start));
         self.output.json(&JsonSolve { length, loop_start, shortest, files, ..self.json("plan") })?;
         Ok(Status::Done)
+    }
+
+    /// The files of the plan's controller; none, and a warning, where its proof does not go through.
+    fn controller(&self, plan: &Plan) -> Vec<Artifact> {
+        driver::controller(&self.mission.problem, plan, self.float).unwrap_or_else(|why| {
+            let why = printable(&why.to_string()).into_owned();
+            self.output.note(&format!("warning: no controller in {} is written: {why}", self.float));
+            Vec::new()
+        })
     }
 
     fn json(&self, status: &'static str) -> JsonSolve {
@@ -237,8 +255,22 @@ fn found(plan: &Plan, shortest: bool, encoding: Encoding, files: &[String]) -> S
         (true, Encoding::Paper) => "no shorter one exists for its tube and cells",
         (false, _) => "a shorter one may exist",
     };
-    let files = files.join("\n  ");
+    let files = shown(files).join("\n  ");
     format!("plan: {}; checked exactly; {rank}\n  {}", plan.summary(), printable(&files))
+}
+
+/// The files for people: those of the controller as its directory alone.
+fn shown(files: &[String]) -> Vec<String> {
+    let mut shown: Vec<String> = Vec::new();
+    for file in files {
+        let ancestors = Path::new(file).ancestors();
+        let directory = ancestors.skip(1).find(|a| a.file_name().is_some_and(|n| n == controller::DIRECTORY));
+        let path = directory.map_or_else(|| file.clone(), |d| format!("{}/", d.to_string_lossy()));
+        if shown.last() != Some(&path) {
+            shown.push(path);
+        }
+    }
+    shown
 }
 
 fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {

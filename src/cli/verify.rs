@@ -97,7 +97,7 @@ pub fn examine(
 }
 
 /// A plan from its file: the outer error is the file's, the inner one the plan's.
-fn read_plan(path: &Path) -> Result<Result<Plan, Diagnostic>, Diagnostic> {
+pub(super) fn read_plan(path: &Path) -> Result<Result<Plan, Diagnostic>, Diagnostic> {
     let bytes = files::read(path)?;
     let name = printable(&files::shown_name(path)).into_owned();
     let refused = |why: &str| plain_error("dosm::plan::malformed", format!("`{name}` is no plan: {why}"));

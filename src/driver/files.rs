@@ -90,7 +90,7 @@ pub fn reopen(document: &Document) -> Reopened {
     let horizon = ends.map(|(first, last)| (first.length, last.length));
     Reopened {
         source: SourceFile::new(format!("{}.dosm", document.mission.name), document.mission.source.clone()),
-        overrides: Overrides { set, horizon },
+        overrides: Overrides { set, horizon, ..Overrides::default() },
         encoding: encoding_of(document),
     }
 }

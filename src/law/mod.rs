@@ -4,11 +4,13 @@
 //! as it stands ([`SOURCE`]) into every controller. [`TubeTables`] and [`PathTables`] are the numbers
 //! it works with, and [`Rounding`] is how far it can be from the law in real numbers.
 
+mod fit;
 mod float;
 mod rounding;
 mod tables;
 pub mod tracking;
 
+pub use fit::{Flight, Misfit, Promise, fit};
 pub use float::Float;
 pub use rounding::{Magnitudes, Rounding};
 pub use tables::{Feedback, PathTables, TubeTables};

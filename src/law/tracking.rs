@@ -161,6 +161,17 @@ pub enum Fallback<U> {
     Fixed(U),
 }
 
+impl<U> Fallback<U> {
+    /// The same with another kind of input.
+    pub fn map<V>(self, input: impl FnOnce(U) -> V) -> Fallback<V> {
+        match self {
+            Fallback::Predict => Fallback::Predict,
+            Fallback::Hold => Fallback::Hold,
+            Fallback::Fixed(fixed) => Fallback::Fixed(input(fixed)),
+        }
+    }
+}
+
 /// An amount, and which state or input it is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading<R> {

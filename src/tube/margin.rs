@@ -2,6 +2,10 @@
 
 use crate::exact::Rational;
 use crate::ir::{Model, ModelId, Problem};
+use crate::law::{Feedback, Float, Magnitudes as Nominal, Rounding, TubeTables};
+use nalgebra::DMatrix;
+
+use super::Tube;
 
 /// The margin relative to the disturbance.
 const RELATIVE: f64 = 1e-6;
@@ -10,6 +14,9 @@ const FLOOR: f64 = 1e-9;
 /// Rounding errors of one step of the law, in units of the last place of the largest term, for each
 /// term that is summed. Generous: four operations a term would do.
 const OPERATIONS: f64 = 64.0;
+
+/// How much more is reserved than a law turned out to need: the next one is a little different.
+const SPARE: f64 = 1.5;
 
 /// The share of a state's extent that rounding must not reach.
 const DROWNED: f64 = 1e-4;
@@ -36,11 +43,13 @@ pub(super) struct Magnitudes {
     input: Vec<f64>,
 }
 
-/// The enlarged disturbance box; the longest memory is 4n.
-pub(super) fn enlarge(problem: &Problem, id: ModelId) -> Enlarged {
+/// The enlarged disturbance box, whose reserve holds at least `needed`; the longest memory is 4n.
+pub(super) fn enlarge(problem: &Problem, id: ModelId, needed: &[f64]) -> Enlarged {
     let model = &problem.models[id];
     let magnitudes = magnitudes(problem, id);
-    let reserve = reserves(model, &magnitudes);
+    let estimates = reserves(model, &magnitudes);
+    let reserve: Vec<f64> =
+        estimates.iter().zip(needed).map(|(estimate, needed)| estimate.max(SPARE * needed)).collect();
     let uncertain = uncertainty(model, &magnitudes);
     let width = |i: usize| {
         let theta = (&model.disturbance[i].hi - &model.disturbance[i].lo).to_f64_up() / 2.0;
@@ -52,7 +61,27 @@ pub(super) fn enlarge(problem: &Problem, id: ModelId) -> Enlarged {
     Enlarged { half_width, reserve, drowned }
 }
 
-/// A bound on what rounding adds to each component of ŵ: the errors of e and u, through A and B.
+/// What is proved of the rounding of a tube's law, rounded up; `None` when a number is not finite in
+/// the float type.
+pub(super) fn rounding(problem: &Problem, id: ModelId, tube: &Tube, float: Float) -> Option<Vec<f64>> {
+    let model = &problem.models[id];
+    let magnitudes = magnitudes(problem, id);
+    let exact = |values: &[f64]| values.iter().map(|x| Rational::from_f64(*x)).collect::<Option<Vec<_>>>();
+    let (d, m) = (rows(&tube.d), rows(&tube.m));
+    let feedback = Feedback { center: &tube.center, half_width: &tube.half_width, d: &d, m: &m };
+    let tables = TubeTables::new(float, model, &problem.workspace, &feedback)?;
+    let nominal = Nominal { state: exact(&magnitudes.state)?, input: exact(&magnitudes.input)? };
+    let rounding = Rounding::new(float, model, &feedback, &tables, &nominal)?;
+    Some(rounding.needed.iter().map(Rational::to_f64_up).collect())
+}
+
+fn rows(matrices: &[DMatrix<f64>]) -> Vec<Vec<Vec<f64>>> {
+    let of = |m: &DMatrix<f64>| m.row_iter().map(|row| row.iter().copied().collect()).collect();
+    matrices.iter().map(of).collect()
+}
+
+/// An estimate of what rounding adds to each component of ŵ in doubles: the errors of e and u, through
+/// A and B.
 fn reserves(model: &Model, magnitudes: &Magnitudes) -> Vec<f64> {
     let (n, m) = (model.n(), model.m());
     let terms = (4 * n * (n + m)) as f64;

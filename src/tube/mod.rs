@@ -10,6 +10,9 @@
 //! inputs is worth more to the plan than the last centimetres. It is only a cap: nominal inputs may
 //! use all of 𝒰 ⊖ μ(Ω).
 //!
+//! **`reserve`** holds what the controller's own rounding can add: first an estimate, and where what is
+//! proved of the law that comes out of it (`law::Rounding`) is more, that.
+//!
 //! **K** grows from the controllability index while each step more makes the tube at least 1 %
 //! narrower, up to 4n.
 
@@ -26,6 +29,7 @@ use nalgebra::DMatrix;
 use crate::diag::{Diagnostics, Reported};
 use crate::entity::{EntityId, Table};
 use crate::ir::{Model, ModelId, Problem, Spans};
+use crate::law::Float;
 
 pub use closing::{admits, residual_room};
 pub use shape::{Choice, Tube};
@@ -41,7 +45,10 @@ const SHARES: [f64; 4] = [0.9, 0.7, 0.5, 0.3];
 /// How much wider than at the largest share a tube may be, to leave more to the nominal.
 const TOLERABLE: f64 = 1.1;
 
-/// Finds a tube for each model of the problem.
+/// How often a tube is made again because its reserve was too small.
+const ATTEMPTS: usize = 4;
+
+/// Finds a tube for each model of the problem, for controllers that compute with a float type.
 ///
 /// # Errors
 /// [`Reported`] when some model cannot be kept in a tube, or in one that fits the workspace and its
@@ -49,12 +56,13 @@ const TOLERABLE: f64 = 1.1;
 pub fn synthesize(
     problem: &Problem,
     spans: &Spans,
+    float: Float,
     diagnostics: &mut Diagnostics,
 ) -> Result<Tubes, Reported> {
     let mut tubes = Table::new();
     let mut refused = None;
     for id in problem.models.ids() {
-        match tube_of(problem, id) {
+        match tube_of(problem, id, float) {
             Ok(tube) => {
                 tubes.push(tube);
             }
@@ -87,9 +95,24 @@ enum Failure {
     Numerics { states: Vec<usize> },
 }
 
-fn tube_of(problem: &Problem, id: ModelId) -> Result<Tube, Failure> {
+/// A tube whose reserve holds the rounding of its own law.
+fn tube_of(problem: &Problem, id: ModelId, float: Float) -> Result<Tube, Failure> {
+    let mut needed = vec![0.0; problem.models[id].n()];
+    for _ in 0..ATTEMPTS {
+        let tube = tube_with(problem, id, &needed)?;
+        let taken = margin::rounding(problem, id, &tube, float).ok_or(Failure::Unbounded)?;
+        if taken.iter().zip(&tube.reserve).all(|(taken, reserve)| taken <= reserve) {
+            return Ok(tube);
+        }
+        needed = taken;
+    }
+    Err(Failure::Numerics { states: (0..needed.len()).collect() })
+}
+
+/// A tube whose reserve holds so much, and what is usual, of each state.
+fn tube_with(problem: &Problem, id: ModelId, needed: &[f64]) -> Result<Tube, Failure> {
     let model = &problem.models[id];
-    let enlarged = margin::enlarge(problem, id);
+    let enlarged = margin::enlarge(problem, id, needed);
     let (lo, hi) = problem.workspace.bounding_box();
     let workspace: Vec<_> = lo.iter().zip(&hi).map(|(l, h)| (l.to_f64(), h.to_f64())).collect();
     if !enlarged.half_width.iter().all(|h| h.is_finite()) {

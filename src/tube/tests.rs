@@ -6,6 +6,7 @@ use crate::exact::{Rational, RationalMatrix};
 use crate::geometry::HalfSpace;
 use crate::ir::Enclosure;
 use crate::ir::sample::{empty, exact, integrators, interval, model, point};
+use crate::law::Float;
 use proptest::prelude::*;
 
 /// A matrix of so many columns, row by row.
@@ -16,7 +17,7 @@ fn matrix(columns: usize, entries: &[f64]) -> RationalMatrix {
 
 fn tube_for(model: Model) -> Result<Tube, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let tubes = synthesize(&empty(vec![model], 1000.0), &Spans::default(), &mut diagnostics);
+    let tubes = synthesize(&empty(vec![model], 1000.0), &Spans::default(), Float::F64, &mut diagnostics);
     let first = |tubes: Tubes| tubes.values().next().cloned();
     tubes.ok().and_then(first).ok_or(diagnostics)
 }
@@ -203,7 +204,7 @@ fn far_from_the_origin_rounding_takes_a_larger_margin() {
     let model = integrators(2, 4.0, &[4.0]);
     let mut problem = empty(vec![model.clone()], 10.0);
     problem.workspace = problem.workspace.translate(&point(&[1e6, 1e6]));
-    let tubes = synthesize(&problem, &Spans::default(), &mut Diagnostics::new()).unwrap();
+    let tubes = synthesize(&problem, &Spans::default(), Float::F64, &mut Diagnostics::new()).unwrap();
     let tube = &tubes[ModelId::new(0)];
     assert!(tube.reserve[0] > 1e6 * 100.0 * f64::EPSILON);
     assert!(tube.residual_allowance[0] > tube.reserve[0]);
@@ -222,7 +223,7 @@ fn tubes_scale_with_the_unit_of_length() {
             interval.hi *= &factor;
         }
         let problem = empty(vec![model.clone()], 1000.0 * scale);
-        let tubes = synthesize(&problem, &Spans::default(), &mut Diagnostics::new()).unwrap();
+        let tubes = synthesize(&problem, &Spans::default(), Float::F64, &mut Diagnostics::new()).unwrap();
         let tube = &tubes[ModelId::new(0)];
         let (width, expected) = (tube.state_half_width(0) / scale, plain.state_half_width(0));
         assert!((width - expected).abs() < 1e-6, "{scale}: {width} for {expected}");
@@ -320,7 +321,7 @@ fn tubes_too_wide_for_their_surroundings_are_refused() {
     assert_eq!(code_for(narrow), "dosm::tube::wider_than_bound");
     let problem = empty(vec![integrators(2, 4.0, &[4.0])], 0.25);
     let mut diagnostics = Diagnostics::new();
-    assert!(synthesize(&problem, &Spans::default(), &mut diagnostics).is_err());
+    assert!(synthesize(&problem, &Spans::default(), Float::F64, &mut diagnostics).is_err());
     assert_eq!(diagnostics.iter().next().unwrap().code, "dosm::tube::wider_than_workspace");
 }
 

@@ -62,7 +62,7 @@ pub fn load(source: &SourceFile, overrides: &Overrides) -> Mission {
 /// Parameters and lengths for a mission.
 pub fn overrides(set: &[(&str, &str)], horizon: Option<(usize, usize)>) -> Overrides {
     let set = set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
-    Overrides { set, horizon }
+    Overrides { set, horizon, ..Overrides::default() }
 }
 
 /// What a search that takes its time says.

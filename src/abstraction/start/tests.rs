@@ -4,6 +4,7 @@ use super::*;
 use crate::entity::{EntityId, Table};
 use crate::ir::sample::{self, box_shape, disc, exact, interval, point};
 use crate::ir::{Atom, Formula, ModelId, RegionId};
+use crate::law::Float;
 use crate::tube;
 
 /// The codes found in a problem, sorted and without repetition.
@@ -17,7 +18,7 @@ fn codes(problem: &Problem) -> Vec<&'static str> {
 fn all_codes(problem: &Problem) -> Vec<&'static str> {
     let mut diagnostics = Diagnostics::new();
     let spans = Spans::default();
-    let tubes = tube::synthesize(problem, &spans, &mut diagnostics).unwrap();
+    let tubes = tube::synthesize(problem, &spans, Float::F64, &mut diagnostics).unwrap();
     let _ = inspect(problem, &spans, &tubes, &mut diagnostics);
     let mut codes: Vec<_> =
         diagnostics.iter().map(|d| d.code.trim_start_matches("dosm::abstraction::")).collect();
@@ -176,7 +177,7 @@ fn coupled_axes_give_an_exact_polygon() {
     model.a[(0, 2)] = exact(0.25);
     model.disturbance[1] = interval(-0.01, 0.01);
     let problem = sample::empty(vec![model.clone()], 50.0);
-    let tubes = tube::synthesize(&problem, &Spans::default(), &mut Diagnostics::new()).unwrap();
+    let tubes = tube::synthesize(&problem, &Spans::default(), Float::F64, &mut Diagnostics::new()).unwrap();
     let tube = &tubes[ModelId::new(0)];
     let set = ErrorSet::new(&model, tube).unwrap();
     assert!(set.positions().facets.len() > 4);
@@ -199,7 +200,7 @@ fn erratum_p3_an_off_centre_tube_hits_on_its_own_side() {
         problem.blockers[crate::ir::BlockerId::new(0)].shape = box_shape(&[x - 0.5, -5.0], &[x + 0.5, 5.0]);
         start(&mut problem, 0, 0.0, 0.0);
         let spans = Spans::default();
-        let mut tubes = tube::synthesize(&problem, &spans, &mut Diagnostics::new()).unwrap();
+        let mut tubes = tube::synthesize(&problem, &spans, Float::F64, &mut Diagnostics::new()).unwrap();
         let tube = &mut tubes[ModelId::new(0)];
         tube.center[0] = 0.2;
         let mut diagnostics = Diagnostics::new();
