@@ -9,34 +9,17 @@ mod picture;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
 use dosmc::back::svg::{self, Options};
-use dosmc::diag::Diagnostics;
-use dosmc::driver::{self, Answer, Overrides};
-use dosmc::ir::{Base, Blocker, Problem, Region, Robot};
+use dosmc::ir::Problem;
 use dosmc::plan::Plan;
-use dosmc::solve::Watch;
-use dosmc::source::SourceFile;
 use proptest::prelude::*;
 use serde_json::Value;
 
-use common::Patient;
+use common::planned;
 
 const RELAY: &str = "examples/relay.dosm";
-
-/// A mission of the package with its plan.
-fn planned(path: &str) -> (Problem, Plan) {
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("a mission");
-    let source = SourceFile::new(path, text);
-    let mission =
-        driver::load(&source, &Overrides::default(), &mut Diagnostics::new()).expect("it has no errors");
-    let watch: Arc<dyn Watch> = Arc::new(Patient);
-    match driver::solve(&mission, &watch).answer {
-        Answer::Plan { plan, .. } => (mission.problem, *plan),
-        other => panic!("{path}: {other:?}"),
-    }
-}
 
 fn dosmc(args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dosmc"));
@@ -122,7 +105,7 @@ fn a_plan_of_other_parameters_is_not_drawn() {
 
 #[test]
 fn other_kinds_of_picture_are_refused_with_what_is_possible() {
-    for name in ["page.html", "picture.pdf", "picture", ".svg"] {
+    for name in ["page.htm", "picture.pdf", "picture", ".svg"] {
         let (_dir, path, file) = fresh(name);
         let output = dosmc(&["render", &solved("plan.json"), RELAY, "-o", &file]);
         assert_eq!(status(&output), 1, "{name}");
@@ -213,25 +196,7 @@ static RELAYED: LazyLock<(Problem, Plan)> = LazyLock::new(|| planned(RELAY));
 
 /// The relay with other names.
 fn renamed(mission: &str, names: &[String; 5]) -> (Problem, Plan) {
-    let (mut problem, mut plan) = RELAYED.clone();
-    let new = |old: &str| match old {
-        "scout" => names[0].clone(),
-        "helper" => names[1].clone(),
-        "tower" => names[2].clone(),
-        _ => old.to_string(),
-    };
-    problem.name = mission.into();
-    problem.regions =
-        problem.regions.values().map(|r| Region { name: names[3].clone(), ..r.clone() }).collect();
-    problem.blockers =
-        problem.blockers.values().map(|b| Blocker { name: names[4].clone(), ..b.clone() }).collect();
-    problem.bases = problem.bases.values().map(|b| Base { name: new(&b.name), ..b.clone() }).collect();
-    problem.robots = problem.robots.values().map(|r| Robot { name: new(&r.name), ..r.clone() }).collect();
-    plan.robots.iter_mut().for_each(|r| r.name = new(&r.name));
-    for link in plan.links.iter_mut().flatten().flatten() {
-        (link.from, link.to) = (new(&link.from), new(&link.to));
-    }
-    (problem, plan)
+    common::renamed(&RELAYED, mission, names)
 }
 
 #[test]

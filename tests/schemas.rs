@@ -39,7 +39,7 @@ fn every_answer_of_every_command_is_as_its_schema_says() {
     assert_eq!(printed(&["solve", REACH, "-o", out]).1, 0);
     let plan = dir.path().join("plan.json");
     let plan = plan.to_str().expect("plain names");
-    let picture = format!("{out}/drawn.svg");
+    let (picture, page) = (format!("{out}/drawn.svg"), format!("{out}/drawn.html"));
     let table: &[(&[&str], i32, &str)] = &[
         (&["check", REACH], 0, "ok"),
         (&["check", REACH, WRONG, "no/such/file.dosm"], 1, "error"),
@@ -66,6 +66,7 @@ fn every_answer_of_every_command_is_as_its_schema_says() {
         (&["verify", REACH, REACH], 5, "error"),
         (&["verify", plan, WRONG], 2, "error"),
         (&["render", plan, REACH, "-o", &picture], 0, "drawn"),
+        (&["render", plan, REACH, "-o", &page], 0, "drawn"),
         (&["render", plan, "tests/missions/solve/until.dosm", "-o", &picture], 5, "refused"),
         (&["render", plan, REACH, "-o", out], 1, "error"),
     ];

@@ -2,6 +2,7 @@
 
 pub mod cnf;
 pub mod controller;
+pub mod html;
 pub mod ir;
 mod names;
 pub mod smc;

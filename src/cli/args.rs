@@ -188,7 +188,7 @@ pub enum Command {
         /// The mission; `-` is standard input
         mission: PathBuf,
     },
-    /// Draw a plan: the workspace, every robot's way and tube, and the links at chosen moments
+    /// Draw a plan: a picture of the workspace, every robot's way, tube and links, or a page on which they move
     #[command(display_order = 6, after_long_help = help::RENDER)]
     Render {
         /// The plan, a `plan.json`
@@ -196,7 +196,7 @@ pub enum Command {
         /// The mission; `-` is standard input
         mission: PathBuf,
         /// Where to draw it; the name's end says how
-        #[arg(short, long, value_name = "FILE.svg|FILE.png")]
+        #[arg(short, long, value_name = "FILE.svg|FILE.html|FILE.png")]
         output: PathBuf,
         /// With `paper`, draw the cells too: the coarse ones that `solve --encoding paper` begins with
         #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH")]

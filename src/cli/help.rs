@@ -93,12 +93,14 @@ Exit status:
 /// `render`.
 pub const RENDER: &str = "\
 The plan is checked first, as `verify` does it; give the same --set as when it was made.
-The name of FILE says what is drawn: .svg for every browser, .png where dosmc was built
-with `--features png`.
+The name of FILE says what is drawn: .svg is a picture for every browser; .html is a page
+on which the robots move, in one file that needs no network; .png is a picture too, where
+dosmc was built with `--features png`.
 
 Examples:
   dosmc solve examples/relay.dosm -o out
   dosmc render out/plan.json examples/relay.dosm -o relay.svg
+  dosmc render out/plan.json examples/relay.dosm -o relay.html
   dosmc render out/plan.json examples/relay.dosm -o cells.svg --encoding paper
 
 Exit status:

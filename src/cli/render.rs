@@ -9,7 +9,7 @@ use super::files::OutputFile;
 use super::output::Output;
 use super::verify::{self, Examined};
 use super::{Status, png};
-use crate::back::svg;
+use crate::back::{html, svg};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Encoding, Overrides};
 
@@ -38,11 +38,12 @@ pub(super) enum JsonRendered {
     Refused(verify::JsonVerify),
 }
 
-/// How a picture is written.
+/// How a picture is written; a page is one that moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Svg,
     Png,
+    Html,
 }
 
 /// What is to be drawn.
@@ -84,15 +85,16 @@ fn format(file: &Path) -> Result<Format, Diagnostic> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("svg") => Ok(Format::Svg),
+        Some("html") => Ok(Format::Html),
         Some("png") => png::available().map(|()| Format::Png),
         _ => {
             let name = file.to_string_lossy();
             let problem =
                 super::usage(format!("`{}` is no kind of picture that can be drawn", printable(&name)));
             Err(problem.with_help(if png::available().is_ok() {
-                "FILE.svg and FILE.png can"
+                "FILE.svg, FILE.html and FILE.png can"
             } else {
-                "FILE.svg can, and FILE.png in a dosmc built with `--features png`"
+                "FILE.svg and FILE.html can, and FILE.png in a dosmc built with `--features png`"
             }))
         }
     }
@@ -112,10 +114,12 @@ fn draw(
         Encoding::HalfSpaces => Vec::new(),
         Encoding::Paper => driver::cells_of(problem).map_err(|e| fail(super::usage(e.to_string())))?,
     };
-    let text = svg::draw(problem, plan, &svg::Options { cells: &cells, ..Default::default() }).contents;
+    let options = svg::Options { cells: &cells, ..Default::default() };
+    let drawn = || svg::draw(problem, plan, &options).contents;
     let bytes = match format {
-        Format::Svg => text.into_bytes(),
-        Format::Png => png::from_svg(&text).map_err(fail)?,
+        Format::Svg => drawn().into_bytes(),
+        Format::Png => png::from_svg(&drawn()).map_err(fail)?,
+        Format::Html => html::write(problem, plan, &options).contents.into_bytes(),
     };
     let written = file.write(&bytes).map_err(fail)?.to_string_lossy().into_owned();
     if !report.same_text {

@@ -4,11 +4,13 @@ pub mod json;
 
 mod extract;
 mod nominal;
+mod routes;
 
 use std::collections::BTreeMap;
 
 pub use extract::extract;
 pub use nominal::Nominal;
+pub use routes::Hop;
 
 /// A plan with all its witnesses. All numbers are SI doubles, meant exactly as they stand.
 #[derive(Clone, Debug, PartialEq)]

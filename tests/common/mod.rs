@@ -12,6 +12,8 @@ use std::time::Duration;
 use dosmc::diag::Diagnostics;
 use dosmc::diag::render::{Style, render};
 use dosmc::driver::{self, Answer, Mission, Overrides};
+use dosmc::ir::{Base, Blocker, Problem, Region, Robot};
+use dosmc::plan::Plan;
 use dosmc::solve::{Progress, Watch};
 use dosmc::source::SourceFile;
 
@@ -69,6 +71,38 @@ pub fn overrides(set: &[(&str, &str)], horizon: Option<(usize, usize)>) -> Overr
 pub fn solve(mission: &Mission) -> Answer {
     let watch: Arc<dyn Watch> = Arc::new(Patient);
     driver::solve(mission, &watch).answer
+}
+
+/// A mission of the package with its plan.
+pub fn planned(path: &str) -> (Problem, Plan) {
+    let mission = load(&source(path), &Overrides::default());
+    match solve(&mission) {
+        Answer::Plan { plan, .. } => (mission.problem, *plan),
+        other => panic!("{path}: {other:?}"),
+    }
+}
+
+/// The plan of `examples/relay.dosm` with other names: scout, helper, tower, the region, the jammer.
+pub fn renamed((problem, plan): &(Problem, Plan), mission: &str, names: &[String; 5]) -> (Problem, Plan) {
+    let (mut problem, mut plan) = (problem.clone(), plan.clone());
+    let new = |old: &str| match old {
+        "scout" => names[0].clone(),
+        "helper" => names[1].clone(),
+        "tower" => names[2].clone(),
+        _ => old.to_string(),
+    };
+    problem.name = mission.into();
+    problem.regions =
+        problem.regions.values().map(|r| Region { name: names[3].clone(), ..r.clone() }).collect();
+    problem.blockers =
+        problem.blockers.values().map(|b| Blocker { name: names[4].clone(), ..b.clone() }).collect();
+    problem.bases = problem.bases.values().map(|b| Base { name: new(&b.name), ..b.clone() }).collect();
+    problem.robots = problem.robots.values().map(|r| Robot { name: new(&r.name), ..r.clone() }).collect();
+    plan.robots.iter_mut().for_each(|r| r.name = new(&r.name));
+    for link in plan.links.iter_mut().flatten().flatten() {
+        (link.from, link.to) = (new(&link.from), new(&link.to));
+    }
+    (problem, plan)
 }
 
 /// Says that a part of a test did not run for want of a tool, past the harness, which keeps back what

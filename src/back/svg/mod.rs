@@ -26,6 +26,7 @@ mod scene;
 mod section;
 mod solids;
 mod space;
+mod stage;
 mod stills;
 mod text;
 mod ways;
@@ -44,9 +45,10 @@ use labels::{Places, Rect};
 use layout::{FONT, Layout, MARGIN, MOMENTS};
 use projection::Projection;
 use scene::Scene;
-use text::escape;
 
 pub use cells::Cell;
+pub(super) use stage::{Actor, Drawing, Stage};
+pub(super) use text::escape;
 
 /// The file's name in the output directory.
 pub const NAME: &str = "plan.svg";
@@ -129,16 +131,21 @@ fn file(layout: &Layout, height: f64, scene: &Scene, body: &str) -> String {
     let (width, height) = (px(layout.width), px(height + MARGIN));
     let title = escape(&scene.problem.name);
     let description = escape(&description(scene));
-    let style = match scene.projection.axes() {
-        Some(_) => include_str!("style.svg").to_string(),
-        None => [include_str!("style.svg"), include_str!("space_style.svg")].concat(),
-    };
+    let style = style(scene);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {width} {height}\" \
          width=\"{width}\" height=\"{height}\" aria-labelledby=\"title desc\">\n\
          <title id=\"title\">{title}</title>\n<desc id=\"desc\">{description}</desc>\n{style}\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n"
     )
+}
+
+/// Patterns and styles of everything that is drawn.
+fn style(scene: &Scene) -> String {
+    match scene.projection.axes() {
+        Some(_) => include_str!("style.svg").to_string(),
+        None => [include_str!("style.svg"), include_str!("space_style.svg")].concat(),
+    }
 }
 
 /// The picture in words, for those who can't see it.

@@ -100,8 +100,13 @@ impl<'a> Scene<'a> {
     /// The links at a step that have both their ends: outline of where each end can be, and its
     /// nominal position.
     pub fn links(&self, step: usize) -> Vec<[(Outline, Point); 2]> {
+        self.all_links(step).flatten().collect()
+    }
+
+    /// The same for each link of the plan at a step, nothing for one that lacks an end.
+    pub fn all_links(&self, step: usize) -> impl Iterator<Item = Option<[(Outline, Point); 2]>> {
         let links = self.plan.links.as_ref().and_then(|all| all.get(step)).map_or(&[][..], Vec::as_slice);
-        links.iter().filter_map(|l| Some([self.end(&l.from, step)?, self.end(&l.to, step)?])).collect()
+        links.iter().map(move |l| Some([self.end(&l.from, step)?, self.end(&l.to, step)?]))
     }
 
     fn end(&self, name: &str, step: usize) -> Option<(Outline, Point)> {

@@ -9,7 +9,7 @@ use super::outline::Point;
 use super::projection::Projection;
 use super::scene::Scene;
 use super::solids::Stack;
-use super::{axes, flights, legend, mark, moments, panels, solids, stills, text, ways};
+use super::{axes, flights, legend, mark, moments, panels, solids, stage, stills, text, ways};
 use crate::back::Flight;
 use crate::exact::Rational;
 use crate::ir::Problem;
@@ -63,18 +63,34 @@ impl Room {
     }
 }
 
+/// The layers of the page's stage: what lies below the robots, and the labels.
+pub fn stage(layout: &Layout, scene: &Scene, problem: &Problem, runs: &[Flight]) -> (String, String) {
+    let (view, room, mut canvas) = (&layout.main, Room::new(problem), Canvas::default());
+    floor_and_walls(&mut canvas, view, scene, &room);
+    stage::layer(&mut canvas, "ways", |canvas| shadows(canvas, view, scene, &room));
+    stage::between_solids(&mut canvas, view, scene, &Stack::new(problem, &scene.projection));
+    stage::layer(&mut canvas, "runs", |canvas| flights::draw(canvas, view, scene, runs));
+    stills::bases(&mut canvas, view, scene, mark::MAST);
+    solids::room(&mut canvas, view, problem, &scene.projection, true);
+    let mut places = places(view);
+    numbers(&mut canvas, view, scene, &room, &mut places);
+    (canvas.finish(), stage::labels(view, scene, &mut places))
+}
+
+/// The height of the floor: 0 for a mission in the plane.
+pub fn floor(problem: &Problem) -> f64 {
+    Room::new(problem).low.get(2).copied().unwrap_or(0.0)
+}
+
+/// Labels stay in the panel.
+fn places(view: &View) -> Places {
+    let ((x, y), [w, h]) = (view.corner, view.size);
+    Places::new(Rect { x, y, w, h })
+}
+
 fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room, runs: &[Flight]) {
     let (view, projection) = (&layout.main, &scene.projection);
-    solids::room(canvas, view, scene.problem, projection, false);
-    let ends = |axis: usize| {
-        let drawn = axes::ticks(room.low[axis], room.extent(axis), along(view, scene, room, axis));
-        drawn.into_iter().map(|(value, _)| value)
-    };
-    let line = |a: [f64; 3], b: [f64; 3]| open(&[pixel(view, scene, &a), pixel(view, scene, &b)]);
-    let mut grid = String::new();
-    ends(0).for_each(|x| grid += &line(room.floor(x, room.low[1]), room.floor(x, room.high[1])));
-    ends(1).for_each(|y| grid += &line(room.floor(room.low[0], y), room.floor(room.high[0], y)));
-    canvas.path("grid", &grid);
+    floor_and_walls(canvas, view, scene, room);
     shadows(canvas, view, scene, room);
     let stack = Stack::new(scene.problem, projection);
     for layer in 0..=stack.count() {
@@ -91,11 +107,24 @@ fn axonometric(canvas: &mut Canvas, layout: &Layout, scene: &Scene, room: &Room,
     flights::draw(canvas, view, scene, runs);
     stills::bases(canvas, view, scene, mark::MAST);
     solids::room(canvas, view, scene.problem, projection, true);
-    let (x, y) = view.corner;
-    let area = Rect { x, y, w: view.size[0], h: view.size[1] };
-    let mut places = Places::new(area);
+    let mut places = places(view);
     numbers(canvas, view, scene, room, &mut places);
     super::labels_of(canvas, view, scene, &mut places);
+}
+
+/// What lies behind everything: the walls and the floor's grid.
+fn floor_and_walls(canvas: &mut Canvas, view: &View, scene: &Scene, room: &Room) {
+    let projection = &scene.projection;
+    solids::room(canvas, view, scene.problem, projection, false);
+    let ends = |axis: usize| {
+        let drawn = axes::ticks(room.low[axis], room.extent(axis), along(view, scene, room, axis));
+        drawn.into_iter().map(|(value, _)| value)
+    };
+    let line = |a: [f64; 3], b: [f64; 3]| open(&[pixel(view, scene, &a), pixel(view, scene, &b)]);
+    let mut grid = String::new();
+    ends(0).for_each(|x| grid += &line(room.floor(x, room.low[1]), room.floor(x, room.high[1])));
+    ends(1).for_each(|y| grid += &line(room.floor(room.low[0], y), room.floor(room.high[0], y)));
+    canvas.path("grid", &grid);
 }
 
 fn pixel(view: &View, scene: &Scene, point: &[f64]) -> Pixel {
