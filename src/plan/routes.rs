@@ -1,6 +1,6 @@
 //! Who hands messages on to whom: the shortest chains of a step's links to a base.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 use super::{Link, Plan};
 
@@ -14,38 +14,31 @@ pub struct Hop<'a> {
 }
 
 impl Plan {
-    /// For each robot, in the plan's order, the first link of a shortest chain to a base over the links
-    /// that the plan relies on at a step: the first in their order among equals. None without a chain.
-    pub fn next_hops(&self, step: usize) -> Vec<Option<Hop<'_>>> {
+    /// By robot, the first link of a shortest chain to a base over the links that the plan relies on at
+    /// a step: the first in their order among equals. A robot without a chain is left out.
+    pub fn next_hops(&self, step: usize) -> BTreeMap<&str, Hop<'_>> {
         let links = self.links.as_ref().and_then(|all| all.get(step)).map_or(&[][..], Vec::as_slice);
-        let found = hops(links, |name| self.robots.iter().any(|r| r.name == name));
-        self.robots.iter().map(|robot| found.get(robot.name.as_str()).copied()).collect()
+        hops(links, |name| self.robots.iter().any(|r| r.name == name))
     }
 }
 
 /// Walks from the bases outwards. Links between robots go both ways; what is no robot is a base.
 fn hops<'a>(links: &'a [Link], is_robot: impl Fn(&str) -> bool) -> BTreeMap<&'a str, Hop<'a>> {
     let mut found: BTreeMap<&str, Hop<'_>> = BTreeMap::new();
-    let mut queue = VecDeque::new();
-    for link in links.iter().filter(|link| !is_robot(&link.to)) {
-        if !found.contains_key(link.from.as_str()) {
-            found.insert(&link.from, Hop { to: &link.to, links: 1 });
-            queue.push_back(link.from.as_str());
-        }
-    }
-    while let Some(near) = queue.pop_front() {
-        let links_from_near = found.get(near).map_or(0, |hop| hop.links);
-        for link in links.iter().filter(|link| is_robot(&link.to)) {
-            let far = match (link.from.as_str(), link.to.as_str()) {
-                (from, to) if to == near => from,
-                (from, to) if from == near => to,
-                _ => continue,
-            };
-            if !found.contains_key(far) {
-                found.insert(far, Hop { to: near, links: links_from_near + 1 });
-                queue.push_back(far);
+    for count in 1.. {
+        let mut farther: BTreeMap<&str, Hop<'_>> = BTreeMap::new();
+        for link in links {
+            for (near, far) in [(&link.to, &link.from), (&link.from, &link.to)] {
+                let reached = if count == 1 { !is_robot(near) } else { found.contains_key(near.as_str()) };
+                if reached && is_robot(far) && !found.contains_key(far.as_str()) {
+                    farther.entry(far).or_insert(Hop { to: near, links: count });
+                }
             }
         }
+        if farther.is_empty() {
+            break;
+        }
+        found.extend(farther);
     }
     found
 }

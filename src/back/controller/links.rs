@@ -121,27 +121,8 @@ fn ends(contents: &Contents<'_>, moment: usize) -> Vec<(usize, usize)> {
 
 /// Each robot's neighbour that is one hop nearer to a base; the first that the plan names.
 fn next_hops(contents: &Contents<'_>, moment: usize) -> Vec<Option<usize>> {
-    let (robots, links) = (contents.robots.len(), ends(contents, moment));
-    let neighbours = |node: usize| {
-        links.iter().filter_map(move |&(from, to)| match node {
-            _ if node == from => Some(to),
-            _ if node == to => Some(from),
-            _ => None,
-        })
-    };
-    let mut hops: Vec<Option<usize>> = vec![None; robots];
-    let mut reached: Vec<usize> = (robots..robots + contents.problem.bases.len()).collect();
-    loop {
-        let next: Vec<(usize, usize)> = (0..robots)
-            .filter(|&robot| hops[robot].is_none())
-            .filter_map(|robot| Some((robot, neighbours(robot).find(|other| reached.contains(other))?)))
-            .collect();
-        if next.is_empty() {
-            return hops;
-        }
-        for (robot, hop) in next {
-            hops[robot] = Some(hop);
-            reached.push(robot);
-        }
-    }
+    let found = contents.plan.next_hops(moment);
+    let place = |wanted: &str| nodes(contents).position(|(name, _)| name == wanted);
+    let robots = contents.problem.robots.values();
+    robots.map(|robot| place(found.get(robot.name.as_str())?.to)).collect()
 }

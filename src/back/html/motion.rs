@@ -68,7 +68,12 @@ impl Motion {
         let places = plan.robots.iter().zip(&stage.actors);
         let bases = problem.bases.values().zip(&stage.bases);
         let node = |name: &str| node(problem, plan, name);
-        let hop = |hop: Option<crate::plan::Hop<'_>>| hop.and_then(|hop| Some((node(hop.to)?, hop.links)));
+        let hops = |step: usize| {
+            let found = plan.next_hops(step);
+            let hop =
+                |robot: &RobotPlan| found.get(robot.name.as_str()).and_then(|h| Some((node(h.to)?, h.links)));
+            plan.robots.iter().map(hop).collect()
+        };
         Motion {
             step_s: plan.step_s,
             length: steps(plan).saturating_sub(1),
@@ -76,7 +81,7 @@ impl Motion {
             robots: places.map(|(robot, actor)| shown(problem, robot, actor)).collect(),
             bases: bases.map(|(base, at)| Base { name: harmless(&base.name), at: point(at) }).collect(),
             links: (0..steps(plan)).map(|step| links(plan, stage, step, &node)).collect(),
-            hops: (0..steps(plan)).map(|step| plan.next_hops(step).into_iter().map(hop).collect()).collect(),
+            hops: (0..steps(plan)).map(hops).collect(),
             runs: runs.len(),
         }
     }
