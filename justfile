@@ -15,6 +15,11 @@ lint:
 test:
     cargo test --release
 
+# What takes too long for every day: Z3 on all lengths, a thousand changed missions.
+soak:
+    DOSMC_SLOW=1 cargo test --release --test differential
+    DOSMC_METAMORPHIC=1000 cargo test --release --test metamorphic
+
 # Plans the paper's Fig. 2 into out/.
 demo:
     cargo run --release -- solve examples/paper/fig2-4.dosm -o out

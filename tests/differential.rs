@@ -3,7 +3,7 @@
 //!
 //! Z3 is the program that `DOSMC_Z3` names, or `z3`; the SAT solver `DOSMC_SAT`, or `minisat` or
 //! `cadical`. Without them the tests say loudly that nothing was compared, and fail where
-//! `DOSMC_REQUIRE_TOOLS` is set.
+//! `DOSMC_REQUIRE_TOOLS` is set. With `DOSMC_SLOW` Z3 is also asked what takes it long: `just soak`.
 
 #![allow(clippy::disallowed_methods, reason = "writes files and runs other programs on them")]
 
@@ -25,8 +25,29 @@ use rustsat_batsat::BasicSolver;
 
 use common::{load, missions, overrides, solve, source};
 
-/// How long Z3 may think about one file, in seconds.
-const PATIENCE: u32 = 60;
+/// How long Z3 may think about one file, in seconds: many times what it takes, since this is wall time on
+/// a machine that may be busy.
+const PATIENCE: u32 = 300;
+
+/// The examples and missions of the corpus that Z3 needs more than 8 s for (up to 40), with the
+/// lengths: it is asked about them where `DOSMC_SLOW` is set.
+const SLOW_EXAMPLES: [(&str, usize); 7] = [
+    ("rescue", 9),
+    ("response", 11),
+    ("response", 12),
+    ("uncertain", 7),
+    ("uncertain", 8),
+    ("uncertain_regions", 10),
+    ("uncertain_regions", 11),
+];
+
+/// The same of Table I with 8 states: 50 s with one base, 15 with two.
+const SLOW_TABLE_ONE: [(&str, usize); 1] = [("table1_8", 7)];
+
+/// Whether Z3 is asked what takes it long, too.
+fn patient() -> bool {
+    std::env::var_os("DOSMC_SLOW").is_some()
+}
 
 /// The first of some programs that can be run; a missing one is said, or fatal where tools must be
 /// there.
@@ -150,19 +171,44 @@ fn ask_z3(z3: &str, asked: &Asked) -> bool {
     }
 }
 
-/// Compares the planner and Z3 on some lengths of a mission; returns how many were compared.
-fn compare(z3: &str, path: &Path, set: &[(&str, &str)], lengths: &[usize]) -> usize {
-    let mut compared = 0;
+/// What came of a comparison: how many lengths were compared, and which were left out for their time.
+#[derive(Default)]
+struct Tally {
+    compared: usize,
+    left_out: Vec<(String, usize)>,
+}
+
+impl Tally {
+    /// Fails where the list of what is slow names something that was not met, or met twice.
+    fn left_out_just(&self, slow: &[(&str, usize)]) {
+        let met: Vec<(&str, usize)> = self.left_out.iter().map(|(n, l)| (n.as_str(), *l)).collect();
+        assert_eq!(met, if patient() { &[] } else { slow }, "the list of what is slow is out of date");
+    }
+}
+
+/// Compares the planner and Z3 on some lengths of a mission.
+fn compare(
+    tally: &mut Tally,
+    z3: &str,
+    path: &Path,
+    set: &[(&str, &str)],
+    lengths: &[usize],
+    slow: &[(&str, usize)],
+) {
     for &length in lengths {
         let asked = Asked::new(path, set, length);
+        let name = &asked.mission.problem.name;
+        if !patient() && slow.contains(&(name.as_str(), length)) {
+            tally.left_out.push((name.clone(), length));
+            continue;
+        }
         let ours = asked.verdict();
         let theirs = ask_z3(z3, &asked);
         if let Some(ours) = ours {
             assert_eq!(ours, theirs, "{}: the planner says {ours}, Z3 {theirs}", asked.name);
-            compared += 1;
+            tally.compared += 1;
         }
     }
-    compared
 }
 
 /// The shortest length of a mission's plans, and the one before.
@@ -177,27 +223,33 @@ fn around_the_shortest(path: &Path, set: &[(&str, &str)]) -> Vec<usize> {
     }
 }
 
-fn table_one(file: &str, bases: &str) {
+/// Compares on the rows of Table I with two robots and one or two bases, on lengths that are not slow.
+fn table_one(file: &str, slow: &[(&str, usize)]) {
     let Some(z3) = tool("DOSMC_Z3", &["z3"]) else { return };
     let path = common::package(format!("examples/paper/{file}.dosm"));
-    let set = [("robots", "2"), ("bases", bases)];
-    let lengths = around_the_shortest(&path, &set);
-    assert!(compare(&z3, &path, &set, &lengths) > 0);
+    for bases in ["1", "2"] {
+        let set = [("robots", "2"), ("bases", bases)];
+        let lengths = around_the_shortest(&path, &set);
+        let mut tally = Tally::default();
+        compare(&mut tally, &z3, &path, &set, &lengths, slow);
+        tally.left_out_just(slow);
+        assert!(tally.compared > 0, "{file}, {bases}: nothing compared");
+    }
 }
 
 #[test]
 fn z3_agrees_on_table_one_with_4_states() {
-    ["1", "2"].iter().for_each(|bases| table_one("table1-4", bases));
+    table_one("table1-4", &[]);
 }
 
 #[test]
 fn z3_agrees_on_table_one_with_6_states() {
-    ["1", "2"].iter().for_each(|bases| table_one("table1-6", bases));
+    table_one("table1-6", &[]);
 }
 
 #[test]
 fn z3_agrees_on_table_one_with_8_states() {
-    ["1", "2"].iter().for_each(|bases| table_one("table1-8", bases));
+    table_one("table1-8", &SLOW_TABLE_ONE);
 }
 
 /// Some lengths of a mission's horizon that are quickly decided by anybody.
@@ -211,7 +263,9 @@ fn z3_agrees_on_missions_without_a_plan() {
     let Some(z3) = tool("DOSMC_Z3", &["z3"]) else { return };
     for path in missions("tests/missions/unsat") {
         let lengths = first_lengths(&load(&source(&path), &Overrides::default()));
-        assert_eq!(compare(&z3, &path, &[], &lengths), lengths.len(), "{}: not all decided", path.display());
+        let mut tally = Tally::default();
+        compare(&mut tally, &z3, &path, &[], &lengths, &[]);
+        assert_eq!(tally.compared, lengths.len(), "{}: not all decided", path.display());
     }
 }
 
@@ -234,11 +288,12 @@ fn z3_agrees_on_small_examples() {
         problem.models.values().all(|m| m.enclosure.is_none())
     };
     let others = missions("tests/missions/solve").into_iter().filter(|p| small(p, 1) && short(p));
-    let mut compared = 0;
+    let mut tally = Tally::default();
     for path in examples.chain(others) {
-        compared += compare(&z3, &path, &[], &around_the_shortest(&path, &[]));
+        compare(&mut tally, &z3, &path, &[], &around_the_shortest(&path, &[]), &SLOW_EXAMPLES);
     }
-    assert!(compared >= 20, "only {compared} lengths compared");
+    tally.left_out_just(&SLOW_EXAMPLES);
+    assert!(tally.compared >= 20, "only {} lengths compared", tally.compared);
 }
 
 /// What our SAT solver says of the Boolean part.
