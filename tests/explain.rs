@@ -20,7 +20,7 @@ use serde_json::Value;
 use common::Patient;
 
 /// Codes that no mission of a page can show, and why.
-const WITHOUT_MISSION: [(&str, &str); 20] = [
+const WITHOUT_MISSION: [(&str, &str); 21] = [
     ("dosm::check::misplaced_table", "behind the parser, which refuses it first"),
     ("dosm::check::set_value", "comes from the command line"),
     ("dosm::check::unknown_param", "comes from the command line"),
@@ -31,6 +31,7 @@ const WITHOUT_MISSION: [(&str, &str); 20] = [
     ("dosm::cli::unreadable", "is about files"),
     ("dosm::cli::unwritable", "is about files"),
     ("dosm::cli::usage", "comes from the command line"),
+    ("dosm::controller::rounding", "is about plans"),
     ("dosm::ir::invalid", "a bug by definition"),
     ("dosm::plan::malformed", "is about plans"),
     ("dosm::smc::altered", "is about instances"),

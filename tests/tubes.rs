@@ -10,6 +10,7 @@ use dosmc::abstraction;
 use dosmc::check::check;
 use dosmc::diag::{Diagnostics, Severity};
 use dosmc::ir::validate;
+use dosmc::law::Float;
 use dosmc::lower::lower;
 use dosmc::source::SourceFile;
 use dosmc::{syntax, tube};
@@ -38,7 +39,7 @@ fn run(source: &SourceFile, diagnostics: &mut Diagnostics) -> Result<(), dosmc::
     let mission = check(&file, source, &[], diagnostics)?;
     let (problem, spans) = lower(&mission);
     assert_eq!(validate(&problem), Ok(()), "{}", source.name);
-    let tubes = tube::synthesize(&problem, &spans, diagnostics)?;
+    let tubes = tube::synthesize(&problem, &spans, Float::F64, diagnostics)?;
     for (id, model) in problem.models.iter() {
         assert!(tube::admits(model, &tubes[id]), "{}", source.name);
     }

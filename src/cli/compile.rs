@@ -12,7 +12,8 @@ use super::mission::Opening;
 use super::output::{Output, plain_error};
 use super::overseer::Overseer;
 use super::stats::{Ledger, peak_rss_mib};
-use super::{Status, output, phases, verify};
+use super::verify::{self, Examined};
+use super::{Status, output, phases};
 use crate::back::{Artifact, Emit};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Encoding, NotWritten, Overrides, TooLarge};
@@ -28,6 +29,18 @@ pub(super) struct JsonCompile {
     status: &'static str,
     /// The paths of the files written.
     files: Vec<String>,
+}
+
+/// All that `compile --json` prints.
+#[cfg(test)]
+#[derive(Serialize, schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only the schema is made of it")]
+pub(super) enum JsonCompiled {
+    /// Files.
+    Written(JsonCompile),
+    /// A plan that is refused, and so has no controller.
+    Refused(verify::JsonVerify),
 }
 
 /// What is to be written.
@@ -110,14 +123,11 @@ fn controller(
     let plan = verify::read_plan(path)
         .map_err(|problem| output.fail(problem))?
         .map_err(|malformed| output.fail_with(malformed, Status::Refused))?;
+    let started = Instant::now();
     let report = driver::verify(&mission.problem, &plan);
     if !report.holds() {
-        let problem = plain_error("dosm::plan::refused", "the plan does not check: no controller is written")
-            .with_help(format!(
-                "`dosmc verify` says why: {}",
-                report.to_string().lines().next().unwrap_or_default()
-            ));
-        return Err(output.fail_with(problem, Status::Refused));
+        let problem = mission.problem.clone();
+        return Err(verify::tell(&Examined { problem, plan, report, time: started.elapsed() }, output));
     }
     let artifacts = driver::controller(&mission.problem, &plan, float);
     artifacts.map_err(|why| output.fail_with(does_not_fit(&why, float), Status::Refused))

@@ -9,7 +9,7 @@ pub const DOSMC: &str = "\
 A first plan:
   dosmc new relay                         # writes relay.dosm, explained line by line
   dosmc check relay.dosm                  # says what is wrong with it, and how to mend it
-  dosmc solve relay.dosm -o out           # writes out/plan.json and out/plan.svg
+  dosmc solve relay.dosm -o out           # writes out/plan.json, its picture, and controllers
   dosmc verify out/plan.json relay.dosm   # checks the plan once more, believing nothing
 
 Exit status:
@@ -48,9 +48,9 @@ Where to go next:
 /// `solve`.
 pub const SOLVE: &str = "\
 The lengths of the mission's `horizon` are tried from the shortest up. DIR gets plan.json,
-the plan with a witness for everything that it claims, and plan.svg, its picture: whole or
-not at all, and only for a plan that the exact checker has accepted. Ctrl-C stops within a
-second and says what was reached.
+the plan with a witness for everything that it claims, plan.svg, its picture, and controller/,
+a Rust crate for the robots: whole or not at all, and only for a plan that the exact checker
+has accepted. Ctrl-C stops within a second and says what was reached.
 
 Examples:
   dosmc solve examples/first.dosm -o out
@@ -58,6 +58,7 @@ Examples:
   dosmc solve examples/relay.dosm -o out --horizon 1..30 --timeout 1min
   dosmc solve examples/patrol.dosm -o out --json
   dosmc solve examples/first.dosm -o out --encoding paper -v
+  dosmc solve examples/first.dosm -o out --float f32
   dosmc compile examples/first.dosm -o out --emit smc && dosmc solve out/first.smc.json -o out
 
 Exit status:
@@ -119,17 +120,22 @@ Formats:
   smc   NAME.smc.json: the whole instance: clauses, convex rows, what literals stand for
   cnf   NAME.cnf: its Boolean part in DIMACS, for SAT solvers
   smt2  NAME.smt2: one length in SMT-LIB, for SMT solvers
+  controller  with --plan: controller/, a Rust crate for the robots of a plan, which is checked
+        first; with --float f32 only where the plan has room for its rounding
 
 Examples:
   dosmc compile examples/relay.dosm -o out --emit ir
   dosmc compile examples/first.dosm -o out --emit smc,cnf,smt2 --length 6
   dosmc compile examples/first.dosm -o out --emit smc --horizon 1..8
+  dosmc solve examples/first.dosm -o out
+  dosmc compile examples/first.dosm --plan out/plan.json -o out --emit controller
 
 Exit status:
   0  written
   1  usage, or a file can't be read or written
   2  the mission has errors
   4  unknown: time ran out first
+  5  the plan does not check, or leaves no room for the controller's rounding
 
 Where to go next:
   docs/schemas describes the JSON files; `dosmc solve NAME.smc.json` plans from an instance.";

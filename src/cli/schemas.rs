@@ -23,7 +23,7 @@ fn all() -> Vec<(&'static str, Schema)> {
         ("smc", of::<back::smc::Document>()),
         ("plan", of::<plan::json::schema::Document>()),
         ("check", of::<Stoppable<check::JsonCheck>>()),
-        ("compile", of::<Stoppable<compile::JsonCompile>>()),
+        ("compile", of::<Stoppable<compile::JsonCompiled>>()),
         ("completions", of::<Printed<completions::JsonScript>>()),
         ("explain", of::<Printed<explain::JsonExplained>>()),
         ("man", of::<Printed<completions::JsonMan>>()),

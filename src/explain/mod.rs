@@ -68,6 +68,8 @@ pub const PAGES: &[Page] = pages! {
         wrong_dimension wrong_index_count wrong_kind wrong_matrix_size wrong_point wrong_position;
     cli:
         bad_name too_large unknown_code unreadable unwritable usage;
+    controller:
+        rounding;
     ir:
         invalid;
     plan:

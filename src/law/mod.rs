@@ -8,6 +8,8 @@ mod fit;
 mod float;
 mod rounding;
 mod tables;
+#[cfg(test)]
+mod tests;
 pub mod tracking;
 
 pub use fit::{Flight, Misfit, Promise, fit};

@@ -296,16 +296,14 @@ where
 
     /// The input for a measured state, and what the monitor says of it.
     pub fn step(&mut self, x: &X) -> (U, Status<R>) {
-        let unusable = x.entries().iter().position(|entry| !entry.is_finite());
-        if let Some(component) = unusable {
+        if let Some(component) = unusable(x) {
             return self.unmeasured(Assumption::NotANumber { component });
         }
         let error = difference(x, &self.path.moment(self.step).z);
         let mut predicted = error.zeros();
         accumulate(&mut predicted, self.tube.errors, self.history.as_ref());
         let disturbance = difference(&error, &predicted);
-        let unusable = disturbance.entries().iter().position(|entry| !entry.is_finite());
-        if let Some(component) = unusable {
+        if let Some(component) = unusable(&disturbance) {
             return self.unmeasured(Assumption::NotANumber { component });
         }
         let assumption = match most_beyond(&disturbance, &self.tube.disturbance) {
@@ -366,7 +364,8 @@ where
         }
     }
 
-    /// The nominal input and the feedback of what is remembered.
+    /// The nominal input and the feedback of what is remembered. (Models that switch between modes have
+    /// gains for each; the moment's mode will choose them here.)
     fn law(&self) -> U {
         let v = &self.path.moment(self.step).v;
         let mut input = v.zeros();
@@ -391,6 +390,17 @@ where
         self.step = self.path.after(self.step);
         (input, Status { assumption, containment, state_near, input_near })
     }
+}
+
+/// The first entry that is no number, or no finite one. All are looked at in any case.
+fn unusable<C: Column>(column: &C) -> Option<usize> {
+    let mut found = None;
+    for (component, entry) in column.entries().iter().enumerate() {
+        if found.is_none() && !entry.is_finite() {
+            found = Some(component);
+        }
+    }
+    found
 }
 
 /// Adds to `sum` each column of some matrices times its entry of the disturbances, in order.

@@ -6,7 +6,7 @@ use crate::abstraction::{Abstraction, Body, Owner, SolidId, dot};
 use crate::encode::Link as LinkUse;
 use crate::entity::EntityId;
 use crate::ir::{BlockerId, Formula, ModelId, Problem, RegionId, RobotId};
-use crate::tube::Tubes;
+use crate::tube::{Tubes, rows};
 
 use super::{Apart, Label, Link, Mission, Nominal, Plan, RobotPlan, Separator, Tube};
 
@@ -40,16 +40,13 @@ pub fn extract(problem: &Problem, tubes: &Tubes, abstraction: &Abstraction, foun
 
 fn tube(problem: &Problem, tubes: &Tubes, id: ModelId) -> Tube {
     let tube = &tubes[id];
-    let rows = |m: &nalgebra::DMatrix<f64>| -> Vec<Vec<f64>> {
-        m.row_iter().map(|row| row.iter().copied().collect()).collect()
-    };
     Tube {
         dynamics: problem.models[id].name.clone(),
         center: tube.center.clone(),
         half_width: tube.half_width.clone(),
         reserve: tube.reserve.clone(),
-        d: tube.d.iter().map(rows).collect(),
-        m: tube.m.iter().map(rows).collect(),
+        d: rows(&tube.d),
+        m: rows(&tube.m),
     }
 }
 

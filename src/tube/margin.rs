@@ -3,9 +3,8 @@
 use crate::exact::Rational;
 use crate::ir::{Model, ModelId, Problem};
 use crate::law::{Feedback, Float, Magnitudes as Nominal, Rounding, TubeTables};
-use nalgebra::DMatrix;
 
-use super::Tube;
+use super::{Tube, rows};
 
 /// The margin relative to the disturbance.
 const RELATIVE: f64 = 1e-6;
@@ -73,11 +72,6 @@ pub(super) fn rounding(problem: &Problem, id: ModelId, tube: &Tube, float: Float
     let nominal = Nominal { state: exact(&magnitudes.state)?, input: exact(&magnitudes.input)? };
     let rounding = Rounding::new(float, model, &feedback, &tables, &nominal)?;
     Some(rounding.needed.iter().map(Rational::to_f64_up).collect())
-}
-
-fn rows(matrices: &[DMatrix<f64>]) -> Vec<Vec<Vec<f64>>> {
-    let of = |m: &DMatrix<f64>| m.row_iter().map(|row| row.iter().copied().collect()).collect();
-    matrices.iter().map(of).collect()
 }
 
 /// An estimate of what rounding adds to each component of ŵ in doubles: the errors of e and u, through

@@ -32,7 +32,7 @@ use crate::ir::{Model, ModelId, Problem, Spans};
 use crate::law::Float;
 
 pub use closing::{admits, residual_room};
-pub use shape::{Choice, Tube};
+pub use shape::{Choice, Tube, rows};
 
 use block::Block;
 use gains::{Gains, NoGains};

@@ -68,6 +68,12 @@ impl fmt::Display for Choice {
     }
 }
 
+/// Matrices row by row.
+pub fn rows(matrices: &[DMatrix<f64>]) -> Vec<Vec<Vec<f64>>> {
+    let of = |matrix: &DMatrix<f64>| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
+    matrices.iter().map(of).collect()
+}
+
 impl Tube {
     /// K, the length of the law's memory.
     pub fn k(&self) -> usize {

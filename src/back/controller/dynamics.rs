@@ -20,7 +20,7 @@ const HEAD: &str = "\
 
 /// The whole file.
 pub(super) fn file(contents: &Contents<'_>) -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = format!("{HEAD}\n{}", contents.stamp());
     for (at, part) in contents.models.iter().enumerate() {
         text.push('\n');
         module(&mut text, contents, at, part);

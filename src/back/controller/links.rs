@@ -11,6 +11,9 @@ const HEAD: &str = "\
 //! Who talks to whom at each moment of the plan: links that no jammer crosses, whatever the admissible
 //! disturbances do.
 
+// Hashes are long.
+#![allow(clippy::unreadable_literal)]
+
 ";
 
 /// The whole file.
@@ -19,7 +22,8 @@ pub(super) fn file(contents: &Contents<'_>) -> String {
     let robots = contents.robots.len();
     let moments = contents.plan.length + 1;
     let mut text = HEAD.to_owned();
-    text.push_str("/// A robot or a base station.\n");
+    text.push_str(&contents.stamp());
+    text.push_str("\n/// A robot or a base station.\n");
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]\npub enum Node {\n");
     for (at, (name, node)) in nodes.iter().enumerate() {
         let what = if at < robots { "The robot" } else { "The base station" };

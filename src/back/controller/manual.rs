@@ -4,8 +4,6 @@ use std::fmt::Write;
 
 use super::words::{code, doc, literal};
 use super::{Contents, RUST};
-use crate::plan;
-use crate::source::sha256;
 
 /// `Cargo.toml`.
 pub(super) fn manifest(contents: &Contents<'_>) -> String {
@@ -81,7 +79,7 @@ not part of the disturbance, and what happens between sampling times.
         rounding = rounding(contents),
     );
     let _ = writeln!(text, "Mission {}, SHA-256 of its text", code(&contents.problem.name));
-    let _ = writeln!(text, "`{}`,\nof plan.json `{}`.", contents.problem.sha256, plan_hash(contents));
+    let _ = writeln!(text, "`{}`,\nof plan.json `{}`.", contents.problem.sha256, contents.hash);
     text
 }
 
@@ -144,6 +142,10 @@ pub const STEP_SECONDS: f64 = {step};
 /// The moment that comes after the last one of the plan.
 pub const LOOP_START: usize = {loop_start};
 
+// Tables of two plans do not go together.
+const _: () = assert!(dynamics::PLAN == PLAN && robots::PLAN == PLAN && links::PLAN == PLAN);
+
+{stamp}
 /// What a controller says at a step; `I` is the dynamics' `Input`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output<I> {{
@@ -158,9 +160,10 @@ pub struct Output<I> {{
         real = contents.float,
         mission = literal(&problem.name),
         mission_hash = literal(&problem.sha256),
-        plan_hash = literal(&plan_hash(contents)),
+        plan_hash = literal(&contents.hash),
         step = seconds(contents),
         loop_start = contents.plan.loop_start,
+        stamp = contents.stamp(),
     );
     text
 }
@@ -213,9 +216,4 @@ fn rounding(contents: &Contents<'_>) -> String {
 
 fn seconds(contents: &Contents<'_>) -> String {
     format!("{:?}", contents.plan.step_s)
-}
-
-/// Of plan.json as `solve` writes it.
-fn plan_hash(contents: &Contents<'_>) -> String {
-    sha256(&plan::json::write(contents.plan))
 }

@@ -25,7 +25,8 @@ use crate::back::Artifact;
 use crate::exact::Rational;
 use crate::ir::{ModelId, Problem};
 use crate::law::{self, Feedback, Flight, Float, Misfit, PathTables, Promise, Rounding, TubeTables};
-use crate::plan::{Plan, Tube};
+use crate::plan::{self, Plan, Tube};
+use crate::source::sha256;
 
 use names::Names;
 
@@ -41,6 +42,8 @@ struct Contents<'a> {
     plan: &'a Plan,
     float: Float,
     names: Names,
+    /// SHA-256 of plan.json as `solve` writes it.
+    hash: String,
     models: Vec<ModelPart<'a>>,
     robots: Vec<RobotPart>,
 }
@@ -118,6 +121,14 @@ impl<'a> Contents<'a> {
             let start = robot.start.iter().map(|x: &Rational| float.round(x.to_f64())).collect();
             robots.push(RobotPart { model, path, start });
         }
-        Ok(Contents { problem, plan, float, names: Names::new(problem), models, robots })
+        let hash = sha256(&plan::json::write(plan));
+        Ok(Contents { problem, plan, float, names: Names::new(problem), hash, models, robots })
+    }
+
+    /// A constant that says which plan a file is of: `lib.rs` compares them, so that files of two plans,
+    /// as a crash between two writes may leave them, do not compile together.
+    fn stamp(&self) -> String {
+        let start = self.hash.get(..16).unwrap_or_default();
+        format!("/// Which plan this file is of.\npub(crate) const PLAN: u64 = 0x{start};\n")
     }
 }

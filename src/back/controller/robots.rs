@@ -23,7 +23,7 @@ use crate::{dynamics, Node, Output};
 
 /// The whole file.
 pub(super) fn file(contents: &Contents<'_>) -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = format!("{HEAD}\n{}", contents.stamp());
     for (at, part) in contents.robots.iter().enumerate() {
         text.push('\n');
         text.push_str(&robot(contents, at, part));
