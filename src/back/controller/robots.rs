@@ -17,8 +17,8 @@ const HEAD: &str = "\
 // The mission's own words are plain text.
 #![allow(clippy::doc_markdown)]
 
-use crate::law::{Fallback, Moment, Path, Tracker};
-use crate::{dynamics, Node, Output};
+use super::law::{Fallback, Moment, Path, Tracker};
+use super::{dynamics, Node, Output};
 ";
 
 /// The whole file.
