@@ -419,6 +419,19 @@ mod tests {
     }
 
     #[test]
+    fn long_numbers_of_moderate_size_have_a_nearest_double() {
+        // Their mantissas are beyond the range of doubles, they themselves are not.
+        for (long, down) in [(1500, 1400), (1100, 990), (2300, 1900), (1030, 1030)] {
+            let power = |n: i32| Rational::from(2).pow(n).expect("a power");
+            let number = (power(long) + Rational::ONE) * power(-down);
+            let expected = 2f64.powi(long - down);
+            assert_eq!(number.to_f64(), expected, "{long} {down}");
+            assert_eq!(number.to_f64_down(), expected);
+            assert_eq!(number.to_f64_up(), expected.next_up());
+        }
+    }
+
+    #[test]
     fn rounding_has_the_direction_it_names() {
         let third = Rational::ratio(1, 3);
         let (down, up) = (third.to_f64_down(), third.to_f64_up());

@@ -63,9 +63,10 @@ impl Repr {
     /// The nearest double.
     pub(super) fn to_f64(&self) -> f64 {
         if let Dyadic(mantissa, exponent) = self {
-            // Where the result is a normal double, scaling the rounded mantissa is exact.
-            let top = mantissa.bit_len() as i64 + exponent;
-            if (-1000..1000).contains(&top) && (-1000..1000).contains(exponent) {
+            // Where the mantissa and the result are normal doubles, scaling the rounded mantissa is exact.
+            let length = mantissa.bit_len() as i64;
+            let top = length + exponent;
+            if length < 1000 && (-1000..1000).contains(&top) && (-1000..1000).contains(exponent) {
                 let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
                 return mantissa.to_f64().value() * scale;
             }
