@@ -113,6 +113,7 @@ impl OutputDirectory {
             let file = self.filled(contents).map_err(|e| unwritable(&path, &e))?;
             ready.push((path, file));
         }
+        sync_all(&ready)?;
         let mut written = Vec::new();
         for (path, file) in ready {
             file.persist(&path).map_err(|e| unwritable(&path, &e.error))?;
@@ -122,11 +123,10 @@ impl OutputDirectory {
         Ok(written)
     }
 
-    /// A temporary file with some contents that are on the disk.
+    /// A temporary file with some contents.
     fn filled(&self, contents: &[u8]) -> io::Result<NamedTempFile> {
         let mut file = temporary_in(&self.path)?;
         file.write_all(contents)?;
-        file.as_file().sync_all()?;
         Ok(file)
     }
 
@@ -136,6 +136,17 @@ impl OutputDirectory {
             let _ = directory.sync_all();
         }
     }
+}
+
+/// Waits until the contents of all files are on the disk. They go there together: one after the other
+/// takes longer than many a search.
+fn sync_all(files: &[(PathBuf, NamedTempFile)]) -> Result<(), Diagnostic> {
+    let sync =
+        |(path, file): &(PathBuf, NamedTempFile)| file.as_file().sync_all().map_err(|e| unwritable(path, &e));
+    std::thread::scope(|scope| {
+        let syncs: Vec<_> = files.iter().map(|file| scope.spawn(move || sync(file))).collect();
+        syncs.into_iter().try_for_each(|sync| sync.join().unwrap_or(Ok(())))
+    })
 }
 
 /// A single file that a result goes to; looked at before the work.

@@ -144,7 +144,7 @@ impl<X, U> Path<'_, X, U> {
 
     /// The step after another one.
     fn after(&self, step: usize) -> usize {
-        if step < self.rest.len() { step + 1 } else { self.loop_start }
+        if step < self.rest.len() { step.saturating_add(1) } else { self.loop_start }
     }
 }
 
