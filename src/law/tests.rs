@@ -295,8 +295,8 @@ fn compare<R: Real + Debug>(case: &Case, float: Float, of: impl Fn(f64) -> R, to
             let off = (&after[0][i] - &disturbance[i]).abs();
             assert!(off <= rounding.disturbance[i], "{float}: {off:?} > {:?}", rounding.disturbance[i]);
         }
-        for k in 0..m {
-            let off = (exact(to(input[k])) - exact(case.v[k]) - product(&case.m, &after, k)).abs();
+        for (k, given) in input.iter().enumerate() {
+            let off = (exact(to(*given)) - exact(case.v[k]) - product(&case.m, &after, k)).abs();
             assert!(off <= rounding.input[k], "{float}: {off:?} > {:?}", rounding.input[k]);
         }
     }
