@@ -35,3 +35,8 @@ snapshots:
 # Licences, sources and advisories of all dependencies (needs cargo-deny).
 deny:
     cargo deny check
+
+# Flies every example for 10⁸ robot-steps, and prints how fast and how near to each limit.
+soak *ARGS:
+    cargo build --release
+    benches/soak.py {{ARGS}}

@@ -70,6 +70,7 @@ pub mod law;
 pub mod lower;
 pub mod plan;
 pub mod quantity;
+pub mod simulate;
 pub mod solve;
 pub mod source;
 pub mod syntax;

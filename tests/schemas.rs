@@ -65,7 +65,12 @@ fn every_answer_of_every_command_is_as_its_schema_says() {
         (&["verify", plan, "tests/missions/solve/until.dosm"], 5, "refused"),
         (&["verify", REACH, REACH], 5, "error"),
         (&["verify", plan, WRONG], 2, "error"),
-        (&["render", plan, REACH, "-o", &picture], 0, "drawn"),
+        (&["simulate", plan, REACH, "--runs", "20"], 0, "held"),
+        (&["simulate", plan, REACH, "--runs", "20", "--exceed", "9"], 0, "violated"),
+        (&["simulate", plan, REACH, "--runs", "1000000000", "--timeout", "0"], 4, "unknown"),
+        (&["simulate", plan, REACH, "--steps", "1"], 1, "error"),
+        (&["simulate", plan, "tests/missions/solve/until.dosm"], 5, "refused"),
+        (&["render", plan, REACH, "-o", &picture, "--runs", "2"], 0, "drawn"),
         (&["render", plan, REACH, "-o", &page], 0, "drawn"),
         (&["render", plan, "tests/missions/solve/until.dosm", "-o", &picture], 5, "refused"),
         (&["render", plan, REACH, "-o", out], 1, "error"),
@@ -169,5 +174,9 @@ fn wrong_documents_are_refused() {
     assert_strict("solve", &unsolved, &["scope"], &["beta", "half_widths", "conflicts", "rejection"]);
     assert_strict("compile", &compiled, &[], &[]);
     assert_strict("verify", &verified, &[], &[]);
+    let plan = plan.to_str().expect("plain names");
+    let maps = ["violations_by_kind", "least", "first_violations", "shortfalls"];
+    let flown = printed(&["simulate", plan, RICH, "--runs", "20", "--exceed", "1.5"]).0;
+    assert_strict("simulate", &flown, &[], &maps);
     assert_strict("check", &printed(&["check", WRONG]).0, &[], &[]);
 }

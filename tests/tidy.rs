@@ -14,7 +14,7 @@ const BASE: [&str; 7] = ["diag", "entity", "entity_id", "exact", "json", "quanti
 ///
 /// `verify` never sees what tube, abstraction, encode or solve computed; no back end sees the
 /// syntax tree; nothing sees the command line.
-const MAY_NAME: [(&str, &[&str]); 23] = [
+const MAY_NAME: [(&str, &[&str]); 24] = [
     ("entity", &[]),
     ("exact", &[]),
     ("source", &[]),
@@ -36,6 +36,7 @@ const MAY_NAME: [(&str, &[&str]); 23] = [
     ("encode", &["ir", "geometry", "tube", "abstraction"]),
     ("plan", &["ir", "geometry", "tube", "abstraction", "encode"]),
     ("solve", &["ir", "geometry", "tube", "abstraction", "encode", "plan"]),
+    ("simulate", &["ir", "geometry", "plan", "law"]),
     ("verify", &["ir", "geometry", "plan"]),
     ("back", &["ir", "geometry", "plan", "law", "tube", "abstraction", "encode"]),
     (
@@ -56,11 +57,14 @@ const MAY_NAME: [(&str, &[&str]); 23] = [
             "back",
         ],
     ),
-    ("cli", &["driver", "explain", "syntax", "ir", "law", "tube", "solve", "plan", "verify", "back"]),
+    (
+        "cli",
+        &["driver", "explain", "syntax", "ir", "law", "tube", "solve", "plan", "verify", "simulate", "back"],
+    ),
 ];
 
 /// Names of crates and of the standard library with the only places (path prefixes) for them.
-const BORDERS: [(&str, &[&str]); 28] = [
+const BORDERS: [(&str, &[&str]); 29] = [
     ("pest", &["src/syntax"]),
     ("pest_derive", &["src/syntax"]),
     ("rustsat", &["src/encode", "src/solve", "src/back/cnf"]),
@@ -78,6 +82,7 @@ const BORDERS: [(&str, &[&str]); 28] = [
     ("tempfile", &["src/cli"]),
     ("indicatif", &["src/cli"]),
     ("terminal_size", &["src/cli"]),
+    ("rand_xoshiro", &["src/simulate/random.rs"]),
     ("strsim", &["src/explain"]),
     ("std::fs", &["src/cli", "src/main.rs"]),
     ("std::env", &["src/cli", "src/main.rs"]),

@@ -9,6 +9,7 @@ use clap_complete::Shell;
 
 use super::help;
 use super::time::parse_time;
+use super::weather::Weather;
 use crate::back::Emit;
 
 /// The whole command line.
@@ -138,7 +139,7 @@ pub enum Command {
         missions: Vec<PathBuf>,
     },
     /// Write a mission in other tools' formats
-    #[command(display_order = 5, after_long_help = help::COMPILE)]
+    #[command(display_order = 6, after_long_help = help::COMPILE)]
     Compile {
         /// The mission; `-` is standard input
         mission: PathBuf,
@@ -189,7 +190,7 @@ pub enum Command {
         mission: PathBuf,
     },
     /// Draw a plan: a picture of the workspace, every robot's way, tube and links, or a page on which they move
-    #[command(display_order = 6, after_long_help = help::RENDER)]
+    #[command(display_order = 7, after_long_help = help::RENDER)]
     Render {
         /// The plan, a `plan.json`
         plan: PathBuf,
@@ -201,6 +202,32 @@ pub enum Command {
         /// With `paper`, draw the cells too: the coarse ones that `solve --encoding paper` begins with
         #[arg(long, value_enum, default_value_t = Encoding::HalfSpaces, value_name = "WHICH")]
         encoding: Encoding,
+        /// Simulate so many runs and draw them as thin lines over the nominal ways
+        #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=MOST_DRAWN), help_heading = "Simulation")]
+        runs: u64,
+        /// How robots are disturbed.
+        #[command(flatten)]
+        weather: Weather,
+    },
+    /// Fly a plan in closed loop, disturbed as much as is allowed and more, and try to break it
+    #[command(display_order = 5, after_long_help = help::SIMULATE)]
+    Simulate {
+        /// The plan, a `plan.json`
+        plan: PathBuf,
+        /// The mission; `-` is standard input
+        mission: PathBuf,
+        /// How many runs
+        #[arg(long, default_value_t = 1000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_RUNS), help_heading = "Simulation")]
+        runs: u64,
+        /// How robots are disturbed.
+        #[command(flatten)]
+        weather: Weather,
+        /// What the law computes with
+        #[arg(long, value_enum, default_value_t = Float::F64, value_name = "TYPE", help_heading = "Simulation")]
+        float: Float,
+        /// Write each run there, a row for each robot and step; `-` is standard output
+        #[arg(long, value_name = "FILE", help_heading = "Output")]
+        csv: Option<PathBuf>,
     },
     /// Write a starter mission, NAME.dosm
     #[command(display_order = 1, after_long_help = help::NEW)]
@@ -209,19 +236,19 @@ pub enum Command {
         name: String,
     },
     /// Explain a diagnostic: what it means, why it matters, and how to mend it
-    #[command(display_order = 7, after_long_help = help::EXPLAIN)]
+    #[command(display_order = 8, after_long_help = help::EXPLAIN)]
     Explain {
         /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; or a phase, such as `tube`
         code: Option<String>,
     },
     /// Print a script that completes commands and flags in a shell
-    #[command(display_order = 8, after_long_help = help::COMPLETIONS)]
+    #[command(display_order = 9, after_long_help = help::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
     },
     /// Print the manual page, or write the manual
-    #[command(display_order = 9, after_long_help = help::MAN)]
+    #[command(display_order = 10, after_long_help = help::MAN)]
     Man {
         /// Where to write dosmc.1 and a page for each command; created where needed
         #[arg(short, long, value_name = "DIR")]
@@ -249,6 +276,11 @@ fn format_parser() -> impl TypedValueParser<Value = Format> {
 /// The longest plan that may be asked for (language.md §2).
 const LONGEST: usize = 100_000;
 
+/// The most runs that are simulated.
+const MOST_RUNS: u64 = 1_000_000_000;
+/// The most runs that are drawn.
+const MOST_DRAWN: u64 = 1000;
+
 /// `A..B` with 1 ≤ A ≤ B
 fn parse_horizon(text: &str) -> Result<(usize, usize), String> {
     let ends = text.split_once("..").ok_or("it must be A..B, as in `1..40`")?;
@@ -261,7 +293,7 @@ fn parse_horizon(text: &str) -> Result<(usize, usize), String> {
 }
 
 /// 1 ≤ L
-fn parse_length(text: &str) -> Result<usize, String> {
+pub fn parse_length(text: &str) -> Result<usize, String> {
     let length = text.trim().parse().ok().filter(|l| (1..=LONGEST).contains(l));
     length.ok_or_else(|| format!("it must be a number of steps from 1 to {LONGEST}"))
 }

@@ -1,7 +1,7 @@
 //! Reading missions and plans, and writing results whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -176,6 +176,49 @@ impl OutputFile {
     pub fn write(&self, contents: &[u8]) -> Result<PathBuf, Diagnostic> {
         let mut written = self.directory.write_bytes(&[(&self.name, contents)])?;
         Ok(written.pop().unwrap_or_default())
+    }
+}
+
+impl OutputFile {
+    /// Begins a file that grows bit by bit and is not there before it is finished.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't be written.
+    pub fn begin(&self) -> Result<GrowingFile<'_>, Diagnostic> {
+        let path = self.directory.path.join(&self.name);
+        fs::create_dir_all(&self.directory.path).map_err(|e| unwritable(&path, &e))?;
+        let file = temporary_in(&self.directory.path).map_err(|e| unwritable(&path, &e))?;
+        Ok(GrowingFile { of: self, path, file: BufWriter::new(file) })
+    }
+}
+
+/// A file that is not there before it is whole.
+pub struct GrowingFile<'a> {
+    of: &'a OutputFile,
+    path: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl GrowingFile<'_> {
+    /// Adds to it.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't be written.
+    pub fn add(&mut self, text: &str) -> Result<(), Diagnostic> {
+        self.file.write_all(text.as_bytes()).map_err(|e| unwritable(&self.path, &e))
+    }
+
+    /// Puts it in its place; what was there before is replaced at once.
+    ///
+    /// # Errors
+    /// A diagnostic when it can't be written.
+    pub fn finish(self) -> Result<PathBuf, Diagnostic> {
+        let path = self.path;
+        let file = self.file.into_inner().map_err(|e| unwritable(&path, e.error()))?;
+        file.as_file().sync_all().map_err(|e| unwritable(&path, &e))?;
+        file.persist(&path).map_err(|e| unwritable(&path, &e.error))?;
+        self.of.directory.sync();
+        Ok(path)
     }
 }
 

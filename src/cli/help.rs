@@ -91,6 +91,33 @@ Exit status:
   2  the mission has errors
   5  the plan does not check; the first failures are listed";
 
+/// `simulate`.
+pub const SIMULATE: &str = "\
+The plan is checked first, as `verify` does it; give the same --set as when it was made. Then
+every robot flies the very law that its controller has, disturbed as far as the mission says
+it may be, or --exceed times as far. Each run is held against the mission itself: bounds,
+true distances and links, regions, and the goals on what really happened. The least margin of
+each kind is named with where and when it was. The same seed gives the same runs, with any
+number of threads.
+
+Examples:
+  dosmc solve examples/relay.dosm -o out
+  dosmc simulate out/plan.json examples/relay.dosm
+  dosmc simulate out/plan.json examples/relay.dosm --runs 20 --disturbance aimed --csv runs.csv
+  dosmc simulate out/plan.json examples/relay.dosm --exceed 1.3 --json
+  dosmc render out/plan.json examples/relay.dosm -o runs.svg --runs 20 --seed 7
+
+Exit status:
+  0  simulated, and nothing was violated; with --exceed beyond 1, simulated
+  1  usage, or a file can't be read or written
+  2  the mission has errors
+  4  unknown: stopped before all runs were made, and nothing was violated
+  5  the plan does not check, or something was violated
+
+Where to go next:
+  docs/controller.md says what each figure means; `dosmc compile MISSION --plan out/plan.json
+  --emit controller` writes the law as a crate.";
+
 /// `render`.
 pub const RENDER: &str = "\
 The plan is checked first, as `verify` does it; give the same --set as when it was made.
@@ -103,6 +130,7 @@ Examples:
   dosmc render out/plan.json examples/relay.dosm -o relay.svg
   dosmc render out/plan.json examples/relay.dosm -o relay.html
   dosmc render out/plan.json examples/relay.dosm -o cells.svg --encoding paper
+  dosmc render out/plan.json examples/relay.dosm -o runs.svg --runs 20
 
 Exit status:
   0  drawn

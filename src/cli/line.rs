@@ -55,6 +55,18 @@ pub fn said(stage: &str, elapsed: Duration) -> String {
     format!("{} · {stage}", clock(elapsed))
 }
 
+/// `8.9 s · ▆▆▆▁▁▁▁▁▁▁ 345 of 1000 runs · no violation`
+pub fn runs(done: u64, of: u64, violations: u64, elapsed: Duration) -> String {
+    let share = if of > 0 { (10 * done / of).min(10) as usize } else { 0 };
+    let bar = "▆".repeat(share) + &"▁".repeat(10 - share);
+    let found = match violations {
+        0 => "no violation".to_string(),
+        1 => "1 violation".to_string(),
+        many => format!("{many} violations"),
+    };
+    format!("{} · {bar} {done} of {of} runs · {found}", clock(elapsed))
+}
+
 /// `8.9 s · length 12 · 345 candidates · 67 lemmas · R3 refused 21 times`
 pub fn search(reached: &Progress, robots: &[String], elapsed: Duration) -> String {
     let mut parts = vec![
@@ -92,6 +104,14 @@ fn clock(elapsed: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_line_says_how_many_runs_are_done() {
+        let at = Duration::from_millis(8_950);
+        assert_eq!(runs(345, 1000, 0, at), "8.9 s · ▆▆▆▁▁▁▁▁▁▁ 345 of 1000 runs · no violation");
+        assert_eq!(runs(7, 7, 1, at), "8.9 s · ▆▆▆▆▆▆▆▆▆▆ 7 of 7 runs · 1 violation");
+        assert_eq!(runs(0, 0, 12, at), "8.9 s · ▁▁▁▁▁▁▁▁▁▁ 0 of 0 runs · 12 violations");
+    }
 
     #[test]
     fn what_is_too_long_is_cut() {

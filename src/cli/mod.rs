@@ -21,10 +21,13 @@ mod overseer;
 mod phases;
 mod png;
 mod render;
+mod sheet;
+mod simulate;
 mod solve;
 mod stats;
 mod time;
 mod verify;
+mod weather;
 
 use std::process::ExitCode;
 
@@ -99,9 +102,15 @@ fn run(args: Args) -> Status {
         Command::Verify { plan, mission } => {
             verify::verify(&plan, &mission, &overrides, args.common.timeout, &output)
         }
-        Command::Render { plan, mission, output: file, encoding } => {
-            let wanted = render::Wanted { file: &file, encoding: encoding.into() };
+        Command::Render { plan, mission, output: file, encoding, runs, weather } => {
+            let runs = simulate::options(runs, weather, Float::F64, args.common.threads);
+            let wanted = render::Wanted { file: &file, encoding: encoding.into(), runs };
             render::render(&plan, &mission, &wanted, &overrides, args.common.timeout, &output)
+        }
+        Command::Simulate { plan, mission, runs, weather, float, csv } => {
+            let options = simulate::options(runs, weather, float.into(), args.common.threads);
+            let wanted = simulate::Wanted { options, csv: csv.as_deref() };
+            simulate::simulate(&plan, &mission, &wanted, &overrides, args.common.timeout, &output)
         }
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),

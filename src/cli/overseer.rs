@@ -58,6 +58,8 @@ enum Stage {
     Named(&'static str),
     /// A search.
     Search,
+    /// Runs of a simulation: how many are done, of how many, and how many violations there were.
+    Runs(u64, u64, u64),
 }
 
 /// What the search, the signal handler and the thread share.
@@ -127,6 +129,11 @@ impl Overseer {
         *lock(&self.stage) = Stage::Named(stage);
     }
 
+    /// Says how many runs of a simulation are done, for the progress line.
+    pub fn count(&self, done: u64, of: u64, violations: u64) {
+        *lock(&self.stage) = Stage::Runs(done, of, violations);
+    }
+
     /// Does something that writes on the terminal, while there is no progress line.
     pub fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         let mut line = lock(&self.line);
@@ -149,6 +156,7 @@ impl Overseer {
         let elapsed = self.elapsed();
         match *lock(&self.stage) {
             Stage::Named(stage) => line::said(stage, elapsed),
+            Stage::Runs(done, of, violations) => line::runs(done, of, violations, elapsed),
             Stage::Search => line::search(&lock(&self.progress), &lock(&self.robots), elapsed),
         }
     }

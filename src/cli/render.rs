@@ -8,10 +8,11 @@ use serde::Serialize;
 use super::files::OutputFile;
 use super::output::Output;
 use super::verify::{self, Examined};
-use super::{Status, png};
+use super::{Status, png, simulate};
 use crate::back::{html, svg};
 use crate::diag::{Diagnostic, printable};
 use crate::driver::{self, Encoding, Overrides};
+use crate::simulate::Options;
 
 /// What `render --json` prints; for a plan that is refused it prints what `verify --json` does.
 #[derive(Serialize)]
@@ -52,6 +53,8 @@ pub struct Wanted<'a> {
     pub file: &'a Path,
     /// With the paper's encoding: the cells too.
     pub encoding: Encoding,
+    /// Runs to simulate and draw over the nominal ways.
+    pub runs: Options,
 }
 
 /// Draws a plan of a mission, if it checks.
@@ -70,7 +73,7 @@ pub fn render(
     };
     match verify::examine(plan, mission, overrides, timeout, output) {
         Ok(examined) if examined.report.holds() => {
-            draw(&examined, format, wanted.encoding, &file, output).unwrap_or_else(|status| status)
+            draw(&examined, format, wanted, &file, output).unwrap_or_else(|status| status)
         }
         Ok(refused) => verify::tell(&refused, output),
         Err(status) => status,
@@ -104,17 +107,18 @@ fn format(file: &Path) -> Result<Format, Diagnostic> {
 fn draw(
     examined: &Examined,
     format: Format,
-    encoding: Encoding,
+    wanted: &Wanted<'_>,
     file: &OutputFile,
     output: &Output,
 ) -> Result<Status, Status> {
     let Examined { problem, plan, report, .. } = examined;
     let fail = |problem| output.fail(problem);
-    let cells = match encoding {
+    let cells = match wanted.encoding {
         Encoding::HalfSpaces => Vec::new(),
         Encoding::Paper => driver::cells_of(problem).map_err(|e| fail(super::usage(e.to_string())))?,
     };
-    let options = svg::Options { cells: &cells, ..Default::default() };
+    let runs = simulate::flights(examined, &wanted.runs).map_err(fail)?;
+    let options = svg::Options { cells: &cells, runs: &runs };
     let drawn = || svg::draw(problem, plan, &options).contents;
     let bytes = match format {
         Format::Svg => drawn().into_bytes(),

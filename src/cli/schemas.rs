@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::output::{JsonFailure, JsonGivenUp};
-use super::{check, compile, completions, explain, new, render, solve, verify};
+use super::{check, compile, completions, explain, new, render, simulate, solve, verify};
 use crate::{back, json, plan};
 
 /// Each schema's name and itself: a format or a command more is a line more.
@@ -29,6 +29,7 @@ fn all() -> Vec<(&'static str, Schema)> {
         ("man", of::<Printed<completions::JsonMan>>()),
         ("new", of::<Printed<new::JsonNew>>()),
         ("render", of::<Stoppable<render::JsonRendered>>()),
+        ("simulate", of::<Stoppable<simulate::JsonSimulated>>()),
         ("solve", of::<Printed<solve::JsonSolve>>()),
         ("verify", of::<Stoppable<verify::JsonVerify>>()),
     ]

@@ -66,32 +66,41 @@ pub fn examine(
     timeout: Option<Duration>,
     output: &Output,
 ) -> Result<Examined, Status> {
+    let overseer = Overseer::start(timeout, !output.quiet, giving_up(output.clone()));
+    let examined = examine_while(&overseer, plan, mission, overrides, output);
+    overseer.close();
+    examined
+}
+
+/// Reads a plan and its mission, and checks the one against the other, as part of a longer command.
+///
+/// # Errors
+/// The command's status when one of them can't be read, which was said.
+pub fn examine_while(
+    overseer: &Overseer,
+    plan: &Path,
+    mission: &Path,
+    overrides: &Overrides,
+    output: &Output,
+) -> Result<Examined, Status> {
+    let fail = |problem, status| overseer.aside(|| output.fail_with(problem, status));
     if plan == Path::new("-") && mission == Path::new("-") {
-        return Err(output.fail(super::usage("the plan and the mission can't both come from standard input")));
+        let why = super::usage("the plan and the mission can't both come from standard input");
+        return Err(fail(why, Status::Usage));
     }
     let ledger = Ledger::default();
-    let overseer = Overseer::start(timeout, !output.quiet, giving_up(output.clone()));
-    let opening = Opening { overrides, overseer: &overseer, ledger: &ledger, output };
-    let checked = opening.problem(mission).map(|problem| {
-        let started = Instant::now();
-        overseer.enter("checking the plan exactly");
-        let report = read_plan(plan).map(|plan| {
-            plan.map(|plan| {
-                let report = driver::verify(&problem, &plan);
-                (plan, report)
-            })
-        });
-        ledger.note(|run| run.time_verify = started.elapsed());
-        (problem, report)
-    });
-    overseer.close();
-    let (problem, checked) = checked?;
-    let (plan, report) = checked
-        .map_err(|problem| output.fail(problem))?
-        .map_err(|refused| output.fail_with(refused, Status::Refused))?;
+    let opening = Opening { overrides, overseer, ledger: &ledger, output };
+    let problem = opening.problem(mission)?;
+    let started = Instant::now();
+    overseer.enter("checking the plan exactly");
+    let plan =
+        read_plan(plan).map_err(|why| fail(why, Status::Usage))?.map_err(|why| fail(why, Status::Refused))?;
+    let report = driver::verify(&problem, &plan);
+    ledger.note(|run| run.time_verify = started.elapsed());
     let run = ledger.so_far();
     if output.verbose > 0 {
-        output.note(&phases::of_check(&run, &report, overseer.elapsed(), peak_rss_mib()));
+        let phases = phases::of_check(&run, &report, overseer.elapsed(), peak_rss_mib());
+        overseer.aside(|| output.note(&phases));
     }
     Ok(Examined { problem, plan, report, time: run.time_verify })
 }

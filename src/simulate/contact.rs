@@ -1,0 +1,274 @@
+//! Links by true geometry, and whether everybody reaches a base over those that hold.
+//!
+//! Between two samples a robot may rely on the links of either: what counts there is the better of the
+//! two lists.
+
+use super::body::{Plane, Point, length, minus};
+use super::inspect::{Inspector, far_end, largest};
+use super::motion::{Bend, PARTS};
+use super::tally::{Against, Kind};
+use super::way::Way;
+use super::world::{Beam, End, World};
+use crate::ir::Norm;
+
+/// Robots and what pieces they are linked past, at one moment.
+type Ends = (Point, Point);
+
+impl Inspector<'_> {
+    /// The links that the plan relies on.
+    pub(super) fn links(&mut self, ways: &[Way]) {
+        if self.world.links.iter().all(Vec::is_empty) {
+            return;
+        }
+        let places = std::mem::take(&mut self.places);
+        let count = places.first().map_or(0, Vec::len);
+        for sample in 0..count {
+            self.links_at(sample, &places);
+            if sample + 1 < count {
+                self.links_after(sample, &places, ways);
+            }
+        }
+        self.places = places;
+    }
+
+    fn links_at(&mut self, sample: usize, places: &[Vec<Point>]) {
+        let world = self.world;
+        let beams = &world.links[world.lasso.step(sample)];
+        let mut broken = false;
+        for beam in beams {
+            let ends = ends(world, beam, |robot| places[robot][sample]);
+            let (who, base) = concerned(beam);
+            if !(before_planes(beam, &ends) >= self.samples.level(Kind::Link) + world.guard)
+                && let Some((margin, piece)) = clearance(world, beam, &ends)
+            {
+                let blocking = &world.pieces[piece];
+                let against = match base {
+                    Some(base) => Against::Base { base, blocker: Some(blocking.blocker) },
+                    None => Against::Piece { blocker: blocking.blocker, piece: blocking.piece },
+                };
+                if !(margin >= self.samples.level(Kind::Link)) {
+                    broken |= self.note(Kind::Link, margin, sample, who, against);
+                }
+            }
+            if let Some(margin) = reserve(world, &ends)
+                && !(margin >= self.samples.level(Kind::Range))
+            {
+                let against = base.map_or(Against::Each, |base| Against::Base { base, blocker: None });
+                broken |= self.note(Kind::Range, margin, sample, who, against);
+            }
+        }
+        if broken && world.asks_for_links(sample) {
+            let holds =
+                |beam: &&Beam| strength(world, beam, &ends(world, beam, |r| places[r][sample])) >= 0.0;
+            let kept: Vec<&Beam> = beams.iter().filter(holds).collect();
+            if !connected(world, &kept) {
+                self.note(Kind::Connectivity, -1.0, sample, [None; 2], Against::Nothing);
+            }
+        }
+    }
+
+    /// The links on the way to the next sample.
+    fn links_after(&mut self, sample: usize, places: &[Vec<Point>], ways: &[Way]) {
+        let world = self.world;
+        let step = world.lasso.step(sample);
+        let [old, new] = [sample, sample + 1].map(|s| &world.links[world.lasso.step(s)]);
+        let open_old = self.open(old, (sample, world.slot(step, false, 0)), places);
+        if open_old.is_empty() {
+            return;
+        }
+        let open_new = self.open(new, (sample, world.slot(step, true, 0)), places);
+        if open_new.is_empty() {
+            return;
+        }
+        let bends: Vec<Bend> =
+            ways.iter().enumerate().map(|(robot, way)| self.bend(robot, sample, way)).collect();
+        for instant in 1..PARTS {
+            let place = |robot: usize| {
+                let (from, to) = (&places[robot][sample], &places[robot][sample + 1]);
+                bends[robot].place(from, to, instant)
+            };
+            let enough = self.between.level(Kind::Link) + world.guard;
+            let mut strong = |beams: &[Beam], open: &[usize], late: bool| {
+                open.iter().all(|&beam| {
+                    let slot = world.slot(step, late, beam);
+                    let planes = &mut self.planes[slot..slot + world.opaque.len()];
+                    is_strong(world, planes, &ends(world, &beams[beam], place), enough)
+                })
+            };
+            if !strong(old, &open_old, false) && !strong(new, &open_new, true) {
+                self.links_between((sample, instant), place, (old, new));
+            }
+        }
+    }
+
+    /// The links that no plane clears until the next sample.
+    fn open(&self, beams: &[Beam], (sample, slot): (usize, usize), places: &[Vec<Point>]) -> Vec<usize> {
+        let world = self.world;
+        let needed = self.between.level(Kind::Link) + world.guard;
+        let pieces = world.opaque.len();
+        let is_open = |(index, beam): &(usize, &Beam)| {
+            let (p, q) = ends(world, beam, |robot| places[robot][sample]);
+            let (p_next, q_next) = ends(world, beam, |robot| places[robot][sample + 1]);
+            let bend = |robot: usize| self.bends[robot][sample];
+            let far = if let End::Robot(to) = beam.to { bend(to) } else { 0.0 };
+            let bend = bend(beam.from);
+            let from = slot + index * pieces;
+            let before = |plane: &Plane| {
+                let near_end = plane.room(&p).min(plane.room(&p_next)) - bend;
+                near_end >= needed && plane.room(&q).min(plane.room(&q_next)) - far >= needed
+            };
+            // Along straight ways no distance between two robots is above the larger of those at the ends.
+            let longest = || {
+                let ends = [reserve(world, &(p, q)), reserve(world, &(p_next, q_next))];
+                ends.into_iter().flatten().fold(f64::INFINITY, f64::min) - bend - far
+            };
+            !(self.planes[from..from + pieces].iter().all(before) && longest() >= needed)
+        };
+        beams.iter().enumerate().filter(is_open).map(|(index, _)| index).collect()
+    }
+
+    fn links_between(
+        &mut self,
+        (sample, instant): (usize, usize),
+        place: impl Fn(usize) -> Point + Copy,
+        lists: (&[Beam], &[Beam]),
+    ) {
+        let world = self.world;
+        let worst = |beams: &[Beam]| {
+            let each = beams.iter().enumerate().map(|(i, b)| (strength(world, b, &ends(world, b, place)), i));
+            each.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
+        };
+        let (old, new) = (worst(lists.0), worst(lists.1));
+        let (margin, beam) =
+            if old.0 >= new.0 { (old.0, lists.0.get(old.1)) } else { (new.0, lists.1.get(new.1)) };
+        let Some(beam) = beam.filter(|_| !(margin >= self.between.level(Kind::Link))) else { return };
+        let (who, base) = concerned(beam);
+        let against = base.map_or(Against::Each, |base| Against::Base { base, blocker: None });
+        let cut_off = margin < 0.0 && {
+            let holds = |beam: &&Beam| strength(world, beam, &ends(world, beam, place)) >= 0.0;
+            let kept: Vec<&Beam> = lists.0.iter().chain(lists.1).filter(holds).collect();
+            !connected(world, &kept)
+        };
+        self.note_between(Kind::Link, margin, (sample, instant), who, against);
+        if cut_off {
+            self.note_between(Kind::Connectivity, -1.0, (sample, instant), [None; 2], Against::Nothing);
+        }
+    }
+}
+
+/// The robots of a link, and its base.
+fn concerned(beam: &Beam) -> ([Option<usize>; 2], Option<usize>) {
+    match beam.to {
+        End::Robot(to) => ([Some(beam.from), Some(to)], None),
+        End::Base(base) => ([Some(beam.from), None], Some(base)),
+    }
+}
+
+fn ends(world: &World, beam: &Beam, place: impl Fn(usize) -> Point) -> Ends {
+    let from = place(beam.from);
+    (from, far_end(world, beam, place))
+}
+
+/// How far both ends are before the link's planes, and so the link from what it must not cross.
+fn before_planes(beam: &Beam, (p, q): &Ends) -> f64 {
+    beam.planes.iter().map(|plane| room(plane.as_ref(), p, q)).fold(f64::INFINITY, f64::min)
+}
+
+/// How far a link is from the nearest piece that it must not cross, and which.
+fn clearance(world: &World, beam: &Beam, (p, q): &Ends) -> Option<(f64, usize)> {
+    let mut least: Option<(f64, usize)> = None;
+    for (&piece, plane) in world.opaque.iter().zip(&beam.planes) {
+        let enough = least.map_or(f64::INFINITY, |(least, _)| least);
+        if room(plane.as_ref(), p, q) >= enough + world.guard {
+            continue;
+        }
+        if let Some(found) = world.pieces[piece].body.segment_clearance(p, q, enough) {
+            least = Some((found, piece));
+        }
+    }
+    least
+}
+
+/// Whether a link is certainly so far from what it must not cross, and could be so much longer. Planes that
+/// show it are kept for the next time.
+fn is_strong(world: &World, planes: &mut [Plane], ends: &Ends, enough: f64) -> bool {
+    let (p, q) = ends;
+    let mut pieces = world.opaque.iter().zip(planes);
+    reserve(world, ends).is_none_or(|margin| margin >= enough)
+        && pieces.all(|(&piece, plane)| {
+            if room(Some(plane), p, q) >= enough {
+                return true;
+            }
+            let body = &world.pieces[piece].body;
+            match body.plane_before(p, q, enough) {
+                Some(found) => *plane = found,
+                None => return body.segment_clearance(p, q, enough).is_none(),
+            }
+            true
+        })
+}
+
+/// How far both ends of a link are before a plane.
+fn room(plane: Option<&Plane>, p: &Point, q: &Point) -> f64 {
+    plane.map_or(f64::NEG_INFINITY, |plane| plane.room(p).min(plane.room(q)))
+}
+
+/// How much longer a link could be.
+fn reserve(world: &World, (p, q): &Ends) -> Option<f64> {
+    let (range, norm) = world.range?;
+    let apart = minus(p, q);
+    Some(range - if norm == Norm::Infinity { largest(&apart) } else { length(&apart) })
+}
+
+/// The least of a link's clearance and what it could be longer.
+fn strength(world: &World, beam: &Beam, ends: &Ends) -> f64 {
+    let clear = clearance(world, beam, ends).map_or(f64::INFINITY, |(margin, _)| margin);
+    clear.min(reserve(world, ends).unwrap_or(f64::INFINITY))
+}
+
+/// Whether every robot reaches a base as the mission asks, whichever robots are lost.
+fn connected(world: &World, links: &[&Beam]) -> bool {
+    let Some(asked) = &world.problem.connectivity else { return true };
+    let robots = world.robots.len();
+    let hops = asked.hops.map_or(robots, |hops| (hops as usize).min(robots));
+    let losses = (asked.redundancy as usize).min(robots.saturating_sub(1));
+    survives(robots, losses, &mut vec![false; robots], &mut |lost| reached(links, lost, hops))
+}
+
+/// Whether something holds for each way to lose so many of the first `below` robots.
+fn survives(
+    below: usize,
+    losses: usize,
+    lost: &mut Vec<bool>,
+    holds: &mut dyn FnMut(&[bool]) -> bool,
+) -> bool {
+    if losses == 0 {
+        return holds(lost);
+    }
+    (losses - 1..below).all(|robot| {
+        lost[robot] = true;
+        let still = survives(robot, losses - 1, lost, holds);
+        lost[robot] = false;
+        still
+    })
+}
+
+/// Whether all robots that are left reach a base over so many links.
+fn reached(links: &[&Beam], lost: &[bool], hops: usize) -> bool {
+    // Which robots reach a base over at most so many links, one more in each round.
+    let mut reach = vec![false; lost.len()];
+    for _ in 0..hops {
+        let before = reach.clone();
+        for beam in links.iter().filter(|beam| !lost[beam.from]) {
+            match beam.to {
+                End::Base(_) => reach[beam.from] = true,
+                End::Robot(to) if !lost[to] => {
+                    reach[beam.from] |= before[to];
+                    reach[to] |= before[beam.from];
+                }
+                End::Robot(_) => {}
+            }
+        }
+    }
+    reach.iter().zip(lost).all(|(reach, lost)| *reach || *lost)
+}
