@@ -42,6 +42,14 @@ pub static PLANNED: LazyLock<Vec<Planned>> = LazyLock::new(|| {
     doubles.chain(single).map(|(path, float)| plan(&path, float)).collect()
 });
 
+impl Planned {
+    /// The moment of the plan that a sample belongs to.
+    pub fn moment(&self, sample: usize) -> usize {
+        let (last, first) = (self.plan.length, self.plan.loop_start);
+        if sample <= last { sample } else { first + (sample - first) % (last + 1 - first) }
+    }
+}
+
 fn plan(path: &std::path::Path, float: Float) -> Planned {
     let name = path.file_stem().expect("a name").to_string_lossy();
     let overrides = Overrides { float, ..Overrides::default() };

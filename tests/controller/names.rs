@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use dosmc::back::Artifact;
 use dosmc::ir::{Base, Blocker, Model, Problem, Region, Robot, Signal};
+use dosmc::law;
 use dosmc::plan::Plan;
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -12,7 +13,7 @@ use super::luck::Luck;
 use super::{PLANNED, Planned, crate_of};
 
 /// How many crates are made of random names.
-const CASES: usize = if cfg!(debug_assertions) { 60 } else { 2_000 };
+const CASES: usize = if cfg!(debug_assertions) { 100 } else { 2_000 };
 
 /// What names and texts are put together from.
 const PIECES: [&str; 46] = [
@@ -217,6 +218,22 @@ fn assert_same_code(file: &Artifact, model: &Artifact, words: &mut BTreeMap<Stri
     }
 }
 
+/// The same with a few steps and matrices only: the names are what matters.
+fn shortened(planned: &Planned) -> Planned {
+    let mut plan = planned.plan.clone();
+    (plan.length, plan.loop_start) = (2, 1);
+    for tube in &mut plan.tubes {
+        tube.d.truncate(2);
+        tube.m.truncate(2);
+    }
+    for robot in &mut plan.robots {
+        robot.z.truncate(3);
+        robot.v.truncate(3);
+    }
+    plan.links.iter_mut().for_each(|links| links.truncate(3));
+    Planned { name: planned.name.clone(), problem: planned.problem.clone(), plan, float: planned.float }
+}
+
 /// The words of the template's own; all others in the model are names, which the model has made
 /// recognisable.
 fn is_name(word: &str) -> bool {
@@ -227,6 +244,7 @@ fn is_name(word: &str) -> bool {
 #[test]
 fn threat_29_names_that_look_like_code_are_names() {
     let planned = PLANNED.iter().find(|p| p.name == "wind_f64").expect("an example with two models");
+    let planned = &shortened(planned);
     let mut count = 0;
     let mut plain = |_: &str| {
         count += 1;
@@ -246,6 +264,7 @@ fn threat_29_names_that_look_like_code_are_names() {
         let mut words = BTreeMap::new();
         for (file, model) in files.iter().zip(&model) {
             match file.name.rsplit('.').next() {
+                _ if file.name.ends_with("/law.rs") => assert_eq!(file.contents, law::SOURCE),
                 Some("rs") => assert_same_code(file, model, &mut words),
                 _ => assert_no_control(file),
             }

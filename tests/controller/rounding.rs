@@ -2,8 +2,8 @@
 //! disturbances within the proved bound, and whole runs that never leave what was proved.
 
 use dosmc::exact::Rational;
-use dosmc::law::Float;
 use dosmc::law::tracking::Fallback;
+use dosmc::law::{Feedback, Float, Magnitudes, PathTables, Rounding, TubeTables};
 
 use super::exact_sum::ExactSum;
 use super::luck::Luck;
@@ -91,6 +91,74 @@ fn each_step_is_within_the_proved_bound_of_the_exact_one() {
     }
     // A bound that nothing comes near to would be no test of the law.
     assert!(used.iter().all(|share| *share >= 0.01), "{used:?}");
+}
+
+/// Numbers of very different sizes, zeros among them.
+fn wild(luck: &mut Luck) -> f64 {
+    let scale = *luck.pick(&[0.0, 1e-320, 1e-9, 1e-3, 1.0, 1.0, 30.0]);
+    luck.push() * scale
+}
+
+/// A matrix of such numbers.
+fn matrix(rows: usize, columns: usize, luck: &mut Luck) -> Vec<Vec<f64>> {
+    (0..rows).map(|_| (0..columns).map(|_| wild(luck)).collect()).collect()
+}
+
+/// The steps of a law with tables that no plan has, for a model as large as a pilot's.
+fn random_tables(pilot: &Pilot<'_>, float: Float, luck: &mut Luck) {
+    let (n, m) = (pilot.model.n(), pilot.model.m());
+    // A power of two: every type has it.
+    let far = |sign: i64| Rational::from(sign << 40);
+    let mut model = pilot.model.clone();
+    model.input_bounds.iter_mut().for_each(|b| (b.lo, b.hi) = (far(-1), far(1)));
+    model.mixed_bounds.clear();
+    let k = 1 + luck.below(6);
+    let one = |i: usize, j: usize| f64::from(u8::from(i == j));
+    let mut d = vec![(0..n).map(|i| (0..n).map(|j| one(i, j)).collect()).collect()];
+    d.extend((1..k).map(|_| matrix(n, n, luck)));
+    let gains: Vec<_> = (0..k).map(|_| matrix(m, n, luck)).collect();
+    let mut path = pilot.path.clone();
+    path.z.iter_mut().flatten().for_each(|z| *z = wild(luck));
+    path.v.iter_mut().flatten().for_each(|v| *v = wild(luck));
+    let center: Vec<f64> = (0..n).map(|_| wild(luck)).collect();
+    let half_width: Vec<f64> = (0..n).map(|_| 10.0 + luck.share()).collect();
+    let feedback = Feedback { center: &center, half_width: &half_width, d: &d, m: &gains };
+    let problem = &PLANNED[0].problem;
+    let tables = TubeTables::new(float, &model, &problem.workspace, &feedback).expect("numbers");
+    let most = |columns: &[Vec<f64>], size: usize| -> Vec<Rational> {
+        let largest = |i: usize| columns.iter().map(|c| c[i].abs()).fold(0.0, f64::max);
+        (0..size).map(|i| Rational::from_f64(largest(i)).expect("finite")).collect()
+    };
+    let magnitudes = Magnitudes { state: most(&path.z, n), input: most(&path.v, m) };
+    let rounding = Rounding::new(float, &model, &feedback, &tables, &magnitudes).expect("a bound");
+    let reserve: Vec<f64> = rounding.needed.iter().map(Rational::to_f64_up).collect();
+    let odd = Pilot {
+        name: format!("random tables ({float})"),
+        robot: pilot.robot,
+        model: &model,
+        path: &path,
+        loop_start: pilot.loop_start,
+        d: &d,
+        m: &gains,
+        center: &center,
+        half_width: &half_width,
+        reserve: &reserve,
+        paths: PathTables::new(float, &path.z, &path.v, pilot.loop_start).expect("numbers"),
+        tables,
+        rounding,
+    };
+    in_type!(float, steps(&odd, 12, luck));
+}
+
+#[test]
+fn random_tables_keep_their_bounds_too() {
+    let all: Vec<Pilot<'_>> = PLANNED.iter().flat_map(pilots).collect();
+    let count = if cfg!(debug_assertions) { 100 } else { 2_000 };
+    for seed in 0..count {
+        let mut luck = Luck::new(7_000 + seed);
+        let float = *luck.pick(&Float::ALL);
+        random_tables(&all[luck.below(all.len())], float, &mut luck);
+    }
 }
 
 /// A closed loop in exact numbers, but for the law.

@@ -345,8 +345,8 @@
     span.title = text;
     return span;
   };
-  if (first > 0) byId("parts").append(part(first, "", `before the loop: 0 \u2026 ${first - 1}`));
-  byId("parts").append(part(Math.max(round - 1, 0.6), "p-round", round === 1 ? `${last}: for ever` : `loop: ${first} \u2026 ${last}, for ever`));
+  if (first > 0) byId("parts").append(part(first, "", first === 1 ? "first: 0" : `first: 0 \u2026 ${first - 1}`));
+  byId("parts").append(part(Math.max(round - 1, 0.6), "p-round", round === 1 ? `for ever: ${last}` : `then for ever: ${first} \u2026 ${last}`));
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const tag = event.target.tagName;
