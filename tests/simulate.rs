@@ -82,7 +82,7 @@ fn no_example_is_violated_by_what_its_plan_assumes() {
         let looked_at = [Kind::Input, Kind::Workspace].map(|kind| findings.samples.least(kind));
         assert!(looked_at.iter().flatten().all(|l| l.margin.is_finite()), "{name}: {findings:#?}");
         assert!(looked_at.iter().all(Option::is_some), "{name}");
-        let blockers = planned.problem.blockers.len() > 0;
+        let blockers = !planned.problem.blockers.is_empty();
         assert_eq!(findings.samples.least(Kind::Blocker).is_some(), blockers, "{name}");
     }
 }
@@ -242,7 +242,8 @@ fn the_table_of_a_run_can_be_flown_again() {
     let output = dosmc(&[&args[..], &["--csv", csv_path]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let text = std::fs::read_to_string(&csv).expect("it was written");
-    let printed = dosmc(&[&args[..], &["--csv", "-", "--quiet"]].concat());
+    let printed = dosmc(&[&args[..], &["--csv", "-"]].concat());
+    assert!(String::from_utf8_lossy(&printed.stderr).contains("robot-steps"), "the summary is beside it");
     assert_eq!(String::from_utf8_lossy(&printed.stdout), text, "the same on standard output");
     let rows = table(&text);
     let steps = simulate::usual_steps(&planned.plan);

@@ -57,7 +57,7 @@ pub fn said(stage: &str, elapsed: Duration) -> String {
 
 /// `8.9 s · ▆▆▆▁▁▁▁▁▁▁ 345 of 1000 runs · no violation`
 pub fn runs(done: u64, of: u64, violations: u64, elapsed: Duration) -> String {
-    let share = if of > 0 { (10 * done / of).min(10) as usize } else { 0 };
+    let share = (10 * done).checked_div(of).unwrap_or(0).min(10) as usize;
     let bar = "▆".repeat(share) + &"▁".repeat(10 - share);
     let found = match violations {
         0 => "no violation".to_string(),

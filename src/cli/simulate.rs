@@ -48,7 +48,7 @@ pub(super) struct JsonSimulate {
 #[allow(dead_code, reason = "only the schema is made of it")]
 pub(super) enum JsonSimulated {
     /// A simulation.
-    Flown(JsonSimulate),
+    Flown(Box<JsonSimulate>),
     /// A plan that is refused.
     Refused(verify::JsonVerify),
 }
@@ -98,7 +98,7 @@ pub fn simulate(
     overseer.close();
     match flown {
         Ok((None, refused)) => verify::tell(&refused, output),
-        Ok((Some(Ok(flown)), examined)) => tell(&examined, &wanted.options, flown, output),
+        Ok((Some(Ok(flown)), examined)) => tell(&examined, wanted, flown, output),
         Ok((Some(Err(why)), _)) => output.fail(why),
         Err(status) => status,
     }
@@ -239,7 +239,8 @@ impl<'a> Csv<'a> {
 }
 
 /// Says what came out.
-fn tell(examined: &Examined, options: &Options, flown: Flown, output: &Output) -> Status {
+fn tell(examined: &Examined, wanted: &Wanted<'_>, flown: Flown, output: &Output) -> Status {
+    let options = &wanted.options;
     let Flown { summary, time, stopped, csv } = flown;
     let violations = summary.findings.samples.all_shortfalls();
     let beyond = options.exceed > 1.0;
@@ -276,12 +277,15 @@ fn tell(examined: &Examined, options: &Options, flown: Flown, output: &Output) -
         time_s: seconds,
         robot_steps_per_s: rate,
     };
-    say(&printable(&text), output).and_then(|()| output.json(&json)).err().unwrap_or(status)
-}
-
-/// Says it on standard output, unless the table has that.
-fn say(text: &str, output: &Output) -> Result<(), Status> {
-    output.say(text)
+    let text = printable(&text);
+    let said = if wanted.csv == Some(Path::new("-")) {
+        // The table has standard output.
+        output.note(&text);
+        Ok(())
+    } else {
+        output.say(&text)
+    };
+    said.and_then(|()| output.json(&json)).err().unwrap_or(status)
 }
 
 /// The ways of some runs, for a picture.
@@ -292,8 +296,12 @@ pub fn flights(examined: &Examined, options: &Options) -> Result<Vec<Flight>, Di
     if options.runs == 0 {
         return Ok(Vec::new());
     }
+    let plan = &examined.plan;
+    // The way and the loop once more: what comes after would only be drawn over them.
+    let once = plan.length + 1 + (plan.length + 1).saturating_sub(plan.loop_start);
+    let options = Options { steps: options.steps.or(Some(once)), ..options.clone() };
     let seen = Positions { examined, flights: Mutex::new(Vec::new()) };
-    simulate::run(&examined.problem, &examined.plan, options, &seen).map_err(misfit)?;
+    simulate::run(&examined.problem, plan, &options, &seen).map_err(misfit)?;
     Ok(seen.flights.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 

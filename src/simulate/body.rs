@@ -64,10 +64,16 @@ impl Body {
 
     /// How far a point is outside: its distance, or less than 0 inside, where it is the least way out.
     pub(super) fn clearance(&self, p: &Point) -> f64 {
-        match self {
-            Body::Polytope(solid) => solid.clearance(p),
+        self.clearance_below(p, f64::INFINITY).unwrap_or(f64::INFINITY)
+    }
+
+    /// How far a point is outside. Nothing when it is at least `enough`, which costs less to find out.
+    pub(super) fn clearance_below(&self, p: &Point, enough: f64) -> Option<f64> {
+        let found = match self {
+            Body::Polytope(solid) => solid.clearance(p, enough)?,
             Body::Ball { center, spread, radius } => box_distance(&minus(p, center), spread) - radius,
-        }
+        };
+        (found < enough).then_some(found)
     }
 
     /// How far a segment is outside: its distance, or less than 0 where it meets the inside. Nothing when it
@@ -82,10 +88,11 @@ impl Body {
         (found < enough).then_some(found)
     }
 
-    /// A plane beyond which the body is, with a segment at least so far before it, if one is found.
-    pub(super) fn plane_before(&self, p: &Point, q: &Point, enough: f64) -> Option<Plane> {
+    /// A plane beyond which the body is, and how far a segment is before it: as far as it can be before any
+    /// that is easily found. Where that is not far enough, how far the segment is outside.
+    pub(super) fn plane_before(&self, p: &Point, q: &Point, enough: f64) -> (Option<Plane>, Option<f64>) {
         let plane = match self {
-            Body::Polytope(solid) => solid.plane_before(p, q),
+            Body::Polytope(solid) => Some(solid.plane_before(p, q)),
             Body::Ball { center, spread, radius } if *spread == [0.0; 3] => {
                 let (along, to) = (minus(q, p), minus(center, p));
                 let share = ratio(dot(&to, &along), dot(&along, &along));
@@ -96,7 +103,14 @@ impl Body {
             }
             Body::Ball { .. } => None,
         };
-        plane.filter(|plane| plane.room(p).min(plane.room(q)) >= enough)
+        let room = plane.map_or(f64::NEG_INFINITY, |plane| plane.room(p).min(plane.room(q)));
+        let left = match self {
+            _ if room >= enough => None,
+            // In the plane those are all the directions that two overlapping sets have.
+            Body::Polytope(solid) if solid.flat && room <= 0.0 => Some(room),
+            _ => self.segment_clearance(p, q, enough),
+        };
+        (plane, left)
     }
 
     /// How far inside a point is, less than 0 outside; of a ball whose centre is uncertain, what all its
@@ -145,9 +159,12 @@ impl Solid {
         self.facets.iter().map(|(a, b)| dot(a, p) - b).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    fn clearance(&self, p: &Point) -> f64 {
+    fn clearance(&self, p: &Point, enough: f64) -> Option<f64> {
         let most = self.most(p);
-        if most <= 0.0 { most } else { self.above_facets(p).min(self.from_edges(p)) }
+        if most <= 0.0 {
+            return Some(most);
+        }
+        (most < enough).then(|| self.above_facets(p).min(self.edge_distance(p)))
     }
 
     fn segment_clearance(&self, p: &Point, q: &Point, enough: f64) -> Option<f64> {
@@ -169,25 +186,37 @@ impl Solid {
     }
 
     /// The plane along a facet, or in the plane along the segment, that a segment is farthest before.
-    fn plane_before(&self, p: &Point, q: &Point) -> Option<Plane> {
-        let of_facet = |(a, b): &(Point, f64)| Plane { normal: times(a, -1.0), offset: -b };
+    fn plane_before(&self, p: &Point, q: &Point) -> Plane {
+        let mut best = (f64::NEG_INFINITY, Plane { normal: [0.0; 3], offset: f64::NEG_INFINITY });
+        for (a, b) in &self.facets {
+            let room = dot(a, p).min(dot(a, q)) - b;
+            if room > best.0 {
+                best = (room, Plane { normal: times(a, -1.0), offset: -b });
+            }
+        }
         let along = minus(q, p);
         let size = length(&along);
-        let across = [along[1] / size, -along[0] / size, 0.0];
-        let heights = || self.vertices.iter().map(|v| dot(&across, v));
-        let of_segment = [1.0, -1.0].map(|sign| Plane {
-            normal: times(&across, sign),
-            offset: heights().map(|h| sign * h).fold(f64::INFINITY, f64::min),
-        });
-        let of_segment = of_segment.into_iter().filter(|_| self.flat && size > 0.0);
-        let room = |plane: &Plane| plane.room(p).min(plane.room(q));
-        let all = self.facets.iter().map(of_facet).chain(of_segment);
-        all.max_by(|a, b| room(a).total_cmp(&room(b)))
+        if self.flat && size > 0.0 {
+            let across = [along[1] / size, -along[0] / size, 0.0];
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for vertex in &self.vertices {
+                let height = dot(&across, vertex);
+                (least, most) = (least.min(height), most.max(height));
+            }
+            let at = dot(&across, p);
+            if least - at > best.0 {
+                best = (least - at, Plane { normal: across, offset: least });
+            }
+            if at - most > best.0 {
+                best = (at - most, Plane { normal: times(&across, -1.0), offset: -most });
+            }
+        }
+        best.1
     }
 
     /// The distance of a segment that does not meet it.
     fn apart(&self, p: &Point, q: &Point) -> f64 {
-        let ends = self.from_edges(p).min(self.from_edges(q));
+        let ends = self.edge_distance(p).min(self.edge_distance(q));
         if self.flat {
             // Two segments that don't cross are nearest at an end of one of them.
             let corners = self.vertices.iter().map(|v| from_segment(v, p, q)).fold(f64::INFINITY, f64::min);
@@ -230,7 +259,7 @@ impl Solid {
         self.facets.iter().map(above).fold(f64::INFINITY, f64::min)
     }
 
-    fn from_edges(&self, p: &Point) -> f64 {
+    fn edge_distance(&self, p: &Point) -> f64 {
         self.edges.iter().map(|[a, b]| from_segment(p, a, b)).fold(f64::INFINITY, f64::min).sqrt()
     }
 }
@@ -436,12 +465,17 @@ mod tests {
                 if p == q {
                     assert!((body.clearance(&p) - found).abs() < 1e-9, "{body:?} {p:?}");
                 }
-                if let Some(plane) = body.plane_before(&p, &q, 0.0) {
+                let (plane, left) = body.plane_before(&p, &q, 0.25);
+                if let Some(plane) = plane {
                     let room = plane.room(&p).min(plane.room(&q));
-                    assert!(found >= room - 1e-9 && room >= 0.0, "{plane:?} {body:?} {p:?} {q:?}");
+                    assert!(found >= room - 1e-9, "{plane:?} {body:?} {p:?} {q:?}");
                     let beyond = beyond(&body, &p, &q, &plane.normal);
                     assert!((beyond - room).abs() < 1e-9, "the body is right behind {plane:?}");
                 }
+                assert!(
+                    left.map_or(found >= 0.25 - 1e-9, |left| (left - found).abs() < 1e-9),
+                    "{left:?} {found}"
+                );
                 for enough in [found - 0.1, found + 0.1] {
                     let partly = body.segment_clearance(&p, &q, enough.max(0.0));
                     assert!(

@@ -6,7 +6,7 @@
 use super::body::{Plane, Point, length, minus};
 use super::inspect::{Inspector, far_end, largest};
 use super::motion::{Bend, PARTS};
-use super::tally::{Against, Kind};
+use super::tally::{Against, Kind, short_of};
 use super::way::Way;
 use super::world::{Beam, End, World};
 use crate::ir::Norm;
@@ -38,7 +38,7 @@ impl Inspector<'_> {
         for beam in beams {
             let ends = ends(world, beam, |robot| places[robot][sample]);
             let (who, base) = concerned(beam);
-            if !(before_planes(beam, &ends) >= self.samples.level(Kind::Link) + world.guard)
+            if short_of(before_planes(beam, &ends), self.samples.level(Kind::Link) + world.guard)
                 && let Some((margin, piece)) = clearance(world, beam, &ends)
             {
                 let blocking = &world.pieces[piece];
@@ -46,21 +46,20 @@ impl Inspector<'_> {
                     Some(base) => Against::Base { base, blocker: Some(blocking.blocker) },
                     None => Against::Piece { blocker: blocking.blocker, piece: blocking.piece },
                 };
-                if !(margin >= self.samples.level(Kind::Link)) {
+                if short_of(margin, self.samples.level(Kind::Link)) {
                     broken |= self.note(Kind::Link, margin, sample, who, against);
                 }
             }
             if let Some(margin) = reserve(world, &ends)
-                && !(margin >= self.samples.level(Kind::Range))
+                && short_of(margin, self.samples.level(Kind::Range))
             {
                 let against = base.map_or(Against::Each, |base| Against::Base { base, blocker: None });
                 broken |= self.note(Kind::Range, margin, sample, who, against);
             }
         }
         if broken && world.asks_for_links(sample) {
-            let holds =
-                |beam: &&Beam| strength(world, beam, &ends(world, beam, |r| places[r][sample])) >= 0.0;
-            let kept: Vec<&Beam> = beams.iter().filter(holds).collect();
+            let held = |beam: &&Beam| holds(world, beam, &ends(world, beam, |r| places[r][sample]));
+            let kept: Vec<&Beam> = beams.iter().filter(held).collect();
             if !connected(world, &kept) {
                 self.note(Kind::Connectivity, -1.0, sample, [None; 2], Against::Nothing);
             }
@@ -88,15 +87,22 @@ impl Inspector<'_> {
                 bends[robot].place(from, to, instant)
             };
             let enough = self.between.level(Kind::Link) + world.guard;
-            let mut strong = |beams: &[Beam], open: &[usize], late: bool| {
-                open.iter().all(|&beam| {
+            let mut strengths = |beams: &[Beam], open: &[usize], late: bool| {
+                let mut all = vec![enough; beams.len()];
+                for &beam in open {
                     let slot = world.slot(step, late, beam);
                     let planes = &mut self.planes[slot..slot + world.opaque.len()];
-                    is_strong(world, planes, &ends(world, &beams[beam], place), enough)
-                })
+                    all[beam] = strength(world, planes, &ends(world, &beams[beam], place), enough);
+                }
+                all
             };
-            if !strong(old, &open_old, false) && !strong(new, &open_new, true) {
-                self.links_between((sample, instant), place, (old, new));
+            let old_ones = strengths(old, &open_old, false);
+            if old_ones.iter().all(|s| *s >= enough) {
+                continue;
+            }
+            let new_ones = strengths(new, &open_new, true);
+            if new_ones.iter().any(|s| *s < enough) {
+                self.weak((sample, instant), (old, &old_ones), (new, &new_ones));
             }
         }
     }
@@ -127,31 +133,31 @@ impl Inspector<'_> {
         beams.iter().enumerate().filter(is_open).map(|(index, _)| index).collect()
     }
 
-    fn links_between(
-        &mut self,
-        (sample, instant): (usize, usize),
-        place: impl Fn(usize) -> Point + Copy,
-        lists: (&[Beam], &[Beam]),
-    ) {
+    /// Notes an instant at which some link of either list is weak.
+    fn weak(&mut self, at: (usize, usize), old: (&[Beam], &[f64]), new: (&[Beam], &[f64])) {
         let world = self.world;
-        let worst = |beams: &[Beam]| {
-            let each = beams.iter().enumerate().map(|(i, b)| (strength(world, b, &ends(world, b, place)), i));
+        let weakest = |(beams, strengths): (&'_ [Beam], &[f64])| {
+            let each = strengths.iter().copied().zip(0..beams.len());
             each.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
         };
-        let (old, new) = (worst(lists.0), worst(lists.1));
-        let (margin, beam) =
-            if old.0 >= new.0 { (old.0, lists.0.get(old.1)) } else { (new.0, lists.1.get(new.1)) };
-        let Some(beam) = beam.filter(|_| !(margin >= self.between.level(Kind::Link))) else { return };
+        let (worst_old, worst_new) = (weakest(old), weakest(new));
+        let (margin, beam) = if worst_old.0 >= worst_new.0 {
+            (worst_old.0, old.0.get(worst_old.1))
+        } else {
+            (worst_new.0, new.0.get(worst_new.1))
+        };
+        let Some(beam) = beam.filter(|_| margin < self.between.level(Kind::Link)) else { return };
         let (who, base) = concerned(beam);
         let against = base.map_or(Against::Each, |base| Against::Base { base, blocker: None });
+        let all = old.0.iter().zip(old.1).chain(new.0.iter().zip(new.1));
         let cut_off = margin < 0.0 && {
-            let holds = |beam: &&Beam| strength(world, beam, &ends(world, beam, place)) >= 0.0;
-            let kept: Vec<&Beam> = lists.0.iter().chain(lists.1).filter(holds).collect();
+            let kept: Vec<&Beam> =
+                all.filter(|(_, strength)| **strength >= 0.0).map(|(beam, _)| beam).collect();
             !connected(world, &kept)
         };
-        self.note_between(Kind::Link, margin, (sample, instant), who, against);
+        self.note_between(Kind::Link, margin, at, who, against);
         if cut_off {
-            self.note_between(Kind::Connectivity, -1.0, (sample, instant), [None; 2], Against::Nothing);
+            self.note_between(Kind::Connectivity, -1.0, at, [None; 2], Against::Nothing);
         }
     }
 }
@@ -189,23 +195,20 @@ fn clearance(world: &World, beam: &Beam, (p, q): &Ends) -> Option<(f64, usize)> 
     least
 }
 
-/// Whether a link is certainly so far from what it must not cross, and could be so much longer. Planes that
-/// show it are kept for the next time.
-fn is_strong(world: &World, planes: &mut [Plane], ends: &Ends, enough: f64) -> bool {
+/// The least of a link's clearance and what it could be longer; anything above `enough` stands for more.
+/// Planes that show that it is clear are kept for the next time.
+fn strength(world: &World, planes: &mut [Plane], ends: &Ends, enough: f64) -> f64 {
     let (p, q) = ends;
-    let mut pieces = world.opaque.iter().zip(planes);
-    reserve(world, ends).is_none_or(|margin| margin >= enough)
-        && pieces.all(|(&piece, plane)| {
-            if room(Some(plane), p, q) >= enough {
-                return true;
-            }
-            let body = &world.pieces[piece].body;
-            match body.plane_before(p, q, enough) {
-                Some(found) => *plane = found,
-                None => return body.segment_clearance(p, q, enough).is_none(),
-            }
-            true
-        })
+    let mut least = reserve(world, ends).unwrap_or(f64::INFINITY).min(enough);
+    for (&piece, plane) in world.opaque.iter().zip(planes) {
+        if room(Some(plane), p, q) >= enough {
+            continue;
+        }
+        let (found, left) = world.pieces[piece].body.plane_before(p, q, enough);
+        *plane = found.unwrap_or(*plane);
+        least = left.map_or(least, |left| least.min(left));
+    }
+    least
 }
 
 /// How far both ends of a link are before a plane.
@@ -220,10 +223,10 @@ fn reserve(world: &World, (p, q): &Ends) -> Option<f64> {
     Some(range - if norm == Norm::Infinity { largest(&apart) } else { length(&apart) })
 }
 
-/// The least of a link's clearance and what it could be longer.
-fn strength(world: &World, beam: &Beam, ends: &Ends) -> f64 {
-    let clear = clearance(world, beam, ends).map_or(f64::INFINITY, |(margin, _)| margin);
-    clear.min(reserve(world, ends).unwrap_or(f64::INFINITY))
+/// Whether a link is not blocked and not too long.
+fn holds(world: &World, beam: &Beam, ends: &Ends) -> bool {
+    clearance(world, beam, ends).is_none_or(|(margin, _)| margin >= 0.0)
+        && reserve(world, ends).is_none_or(|margin| margin >= 0.0)
 }
 
 /// Whether every robot reaches a base as the mission asks, whichever robots are lost.

@@ -7,7 +7,7 @@
 use super::body::{Body, Plane, Point, minus};
 use super::goals::{Evaluation, Labels, Trace};
 use super::motion::{Bend, PARTS};
-use super::tally::{Against, Book, Kind, Spot, Tally};
+use super::tally::{Against, Book, Kind, Spot, Tally, short_of};
 use super::way::Way;
 use super::world::{Beam, End, World};
 use crate::entity::EntityId;
@@ -189,21 +189,21 @@ impl<'w> Inspector<'w> {
             for bound in &mover.states {
                 let x = state[bound.index];
                 let margin = (x - bound.lo).min(bound.hi - x) * bound.scale;
-                if !(margin >= self.samples.level(Kind::State)) {
+                if short_of(margin, self.samples.level(Kind::State)) {
                     self.note(Kind::State, margin, sample, who, Against::State(bound.index));
                 }
             }
             for bound in &mover.inputs {
                 let u = input[bound.index];
                 let margin = (u - bound.lo).min(bound.hi - u) * bound.scale;
-                if !(margin >= self.samples.level(Kind::Input)) {
+                if short_of(margin, self.samples.level(Kind::Input)) {
                     self.note(Kind::Input, margin, sample, who, Against::Input(bound.index));
                 }
             }
             for (index, (normal, offset)) in mover.mixed.iter().enumerate() {
                 let margin =
                     offset - normal.iter().zip(state.iter().chain(input)).map(|(a, x)| a * x).sum::<f64>();
-                if !(margin >= self.samples.level(Kind::Mixed)) {
+                if short_of(margin, self.samples.level(Kind::Mixed)) {
                     self.note(Kind::Mixed, margin, sample, who, Against::Bound(index));
                 }
             }
@@ -223,13 +223,13 @@ impl<'w> Inspector<'w> {
         let mut inside = f64::INFINITY;
         for (sample, place) in places.iter().enumerate() {
             let margin = -world.workspace.most(place);
-            if !(margin >= self.samples.level(Kind::Workspace)) {
+            if short_of(margin, self.samples.level(Kind::Workspace)) {
                 self.note(Kind::Workspace, margin, sample, who, Against::Workspace);
             }
             let next = places.get(sample + 1);
             let bend = self.bends[robot][sample];
             if let (Some(next), true) =
-                (next, !(inside.min(margin) - bend >= self.between.level(Kind::Workspace) + world.guard))
+                (next, short_of(inside.min(margin) - bend, self.between.level(Kind::Workspace) + world.guard))
             {
                 self.leaving(robot, sample, (place, next), way);
             }
@@ -238,12 +238,12 @@ impl<'w> Inspector<'w> {
             for (index, plane) in planes.iter().enumerate() {
                 let room = |p: &Point| plane.as_ref().map_or(f64::NEG_INFINITY, |plane| plane.room(p));
                 let here = room(place);
-                if !(here >= self.samples.level(Kind::Blocker) + world.guard) {
+                if short_of(here, self.samples.level(Kind::Blocker) + world.guard) {
                     self.blocked(robot, sample, index, place);
                 }
                 let Some(next) = next else { continue };
                 let on_the_way = here.min(room(next)) - bend;
-                if !(on_the_way >= self.between.level(Kind::Blocker) + world.guard) {
+                if short_of(on_the_way, self.between.level(Kind::Blocker) + world.guard) {
                     self.blocked_between(robot, sample, index, (place, next), way);
                 }
             }
@@ -255,7 +255,7 @@ impl<'w> Inspector<'w> {
         let bend = self.bend(robot, sample, way);
         for instant in 1..PARTS {
             let margin = -self.world.workspace.most(&bend.place(from, to, instant));
-            if !(margin >= self.between.level(Kind::Workspace)) {
+            if short_of(margin, self.between.level(Kind::Workspace)) {
                 self.note_between(
                     Kind::Workspace,
                     margin,
@@ -269,8 +269,8 @@ impl<'w> Inspector<'w> {
 
     fn blocked(&mut self, robot: usize, sample: usize, index: usize, place: &Point) {
         let piece = &self.world.pieces[index];
-        let margin = piece.body.clearance(place);
-        if !(margin >= self.samples.level(Kind::Blocker)) {
+        let enough = self.samples.level(Kind::Blocker);
+        if let Some(margin) = piece.body.clearance_below(place, enough) {
             let against = Against::Piece { blocker: piece.blocker, piece: piece.piece };
             self.note(Kind::Blocker, margin, sample, [Some(robot), None], against);
         }
@@ -287,8 +287,8 @@ impl<'w> Inspector<'w> {
         let bend = self.bend(robot, sample, way);
         let piece = &self.world.pieces[index];
         for instant in 1..PARTS {
-            let margin = piece.body.clearance(&bend.place(from, to, instant));
-            if !(margin >= self.between.level(Kind::Blocker)) {
+            let enough = self.between.level(Kind::Blocker);
+            if let Some(margin) = piece.body.clearance_below(&bend.place(from, to, instant), enough) {
                 let against = Against::Piece { blocker: piece.blocker, piece: piece.piece };
                 self.note_between(Kind::Blocker, margin, (sample, instant), [Some(robot), None], against);
             }
@@ -324,7 +324,7 @@ impl<'w> Inspector<'w> {
                 };
                 inside.push(depth >= 0.0);
                 outside.push(out);
-                if !(margin >= self.samples.level(Kind::Region)) {
+                if short_of(margin, self.samples.level(Kind::Region)) {
                     self.note(
                         Kind::Region,
                         margin,
@@ -357,7 +357,7 @@ impl<'w> Inspector<'w> {
         for (sample, (p, q)) in places[first].iter().zip(&places[second]).enumerate() {
             let apart = minus(p, q);
             let margin = largest(&apart) - least;
-            if !(margin >= self.samples.level(Kind::Separation)) {
+            if short_of(margin, self.samples.level(Kind::Separation)) {
                 self.note(Kind::Separation, margin, sample, who, Against::Each);
             }
             let next = (places[first].get(sample + 1), places[second].get(sample + 1));
@@ -374,7 +374,7 @@ impl<'w> Inspector<'w> {
             for instant in 1..PARTS {
                 let at = minus(&bends[0].place(p, p_next, instant), &bends[1].place(q, q_next, instant));
                 let margin = largest(&at) - least;
-                if !(margin >= self.between.level(Kind::Separation)) {
+                if short_of(margin, self.between.level(Kind::Separation)) {
                     self.note_between(Kind::Separation, margin, (sample, instant), who, Against::Each);
                 }
             }

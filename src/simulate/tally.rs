@@ -172,6 +172,11 @@ impl Tally {
     }
 }
 
+/// Whether a margin is less than a level, or no number.
+pub(super) fn short_of(margin: f64, level: f64) -> bool {
+    margin < level || margin.is_nan()
+}
+
 /// A tally under way, with what needs no second look.
 #[derive(Clone, Debug)]
 pub(super) struct Book {
@@ -199,12 +204,12 @@ impl Book {
         let at = kind as usize;
         let found = Least { margin, spot };
         // What is no number is no margin.
-        let short = margin.is_nan() || margin < 0.0;
+        let short = short_of(margin, 0.0);
         if short {
             self.tally.short[at] += 1;
             self.tally.first[at].get_or_insert(found);
         }
-        if margin.is_nan() || margin < self.least[at] {
+        if short_of(margin, self.least[at]) {
             self.least[at] = margin;
             self.level[at] = margin.max(0.0);
             self.tally.least[at] = Some(found);

@@ -25,5 +25,5 @@ pub fn draw(canvas: &mut Canvas, view: &View, scene: &Scene, runs: &[Flight]) {
 
 /// The start of a group of thin lines.
 pub fn group(color: &str) -> String {
-    format!(r#"<g stroke="{color}" stroke-width=".7" stroke-opacity=".6">"#)
+    format!(r#"<g stroke="{color}" stroke-width=".7" stroke-opacity=".5">"#)
 }
