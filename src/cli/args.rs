@@ -229,6 +229,16 @@ pub enum Command {
         #[arg(long, value_name = "FILE", help_heading = "Output")]
         csv: Option<PathBuf>,
     },
+    /// Lay missions out in the one style; they mean the same as before
+    #[command(display_order = 8, after_long_help = help::FMT)]
+    Fmt {
+        /// Change nothing; say which missions are not in the style, and end with status 1 if any is not
+        #[arg(long)]
+        check: bool,
+        /// The missions, which are rewritten; `-` is from standard input to standard output
+        #[arg(required = true, value_name = "MISSION")]
+        missions: Vec<PathBuf>,
+    },
     /// Write a starter mission, NAME.dosm
     #[command(display_order = 1, after_long_help = help::NEW)]
     New {
@@ -236,19 +246,19 @@ pub enum Command {
         name: String,
     },
     /// Explain a diagnostic: what it means, why it matters, and how to mend it
-    #[command(display_order = 8, after_long_help = help::EXPLAIN)]
+    #[command(display_order = 9, after_long_help = help::EXPLAIN)]
     Explain {
         /// The diagnostic's code, such as `dosm::check::duplicate` or `duplicate`; or a phase, such as `tube`
         code: Option<String>,
     },
     /// Print a script that completes commands and flags in a shell
-    #[command(display_order = 9, after_long_help = help::COMPLETIONS)]
+    #[command(display_order = 10, after_long_help = help::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
     },
     /// Print the manual page, or write the manual
-    #[command(display_order = 10, after_long_help = help::MAN)]
+    #[command(display_order = 11, after_long_help = help::MAN)]
     Man {
         /// Where to write dosmc.1 and a page for each command; created where needed
         #[arg(short, long, value_name = "DIR")]

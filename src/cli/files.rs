@@ -233,6 +233,27 @@ fn temporary_in(directory: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(directory)
 }
 
+/// Replaces a file's contents at once, or leaves it as it is; it keeps its place and its permissions.
+///
+/// # Errors
+/// A diagnostic when it can't be written.
+pub fn replace(path: &Path, contents: &[u8]) -> Result<(), Diagnostic> {
+    let replaced = || {
+        // A link stays one: what it leads to is replaced.
+        let path = path.canonicalize()?;
+        let permissions = path.metadata()?.permissions();
+        if permissions.readonly() {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        let mut file = temporary_in(path.parent().unwrap_or(Path::new("")))?;
+        file.write_all(contents)?;
+        file.as_file().set_permissions(permissions)?;
+        file.as_file().sync_all()?;
+        file.persist(&path).map_err(|e| e.error)
+    };
+    replaced().map(drop).map_err(|e| unwritable(path, &e))
+}
+
 /// Writes a new file; one that is there is left alone.
 ///
 /// # Errors

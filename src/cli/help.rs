@@ -168,6 +168,23 @@ Exit status:
 Where to go next:
   docs/schemas describes the JSON files; `dosmc solve NAME.smc.json` plans from an instance.";
 
+/// `fmt`.
+pub const FMT: &str = "\
+One declaration and one item a line, blanks where they help, tables in columns, neighbours'
+intervals, units and comments under each other. Comments stay where they belong, and so do
+single empty lines and line breaks inside formulas. A declaration with errors is left as it
+is written. Nothing else than blanks, line ends and semicolons between items ever changes.
+
+Examples:
+  dosmc fmt --check examples/first.dosm
+  dosmc fmt - < examples/first.dosm
+  dosmc new scout && dosmc fmt scout.dosm
+
+Exit status:
+  0  done; with --check, everything is in the style
+  1  usage, a file can't be read or written, or with --check a mission is not in the style
+  2  a mission can't be read at all";
+
 /// `new`.
 pub const NEW: &str = "\
 The mission is small and complete: a scout has to visit a place again and again, around a

@@ -11,6 +11,7 @@ mod compile;
 mod completions;
 mod explain;
 mod files;
+mod fmt;
 mod help;
 mod instance;
 mod line;
@@ -112,6 +113,7 @@ fn run(args: Args) -> Status {
             let wanted = simulate::Wanted { options, csv: csv.as_deref() };
             simulate::simulate(&plan, &mission, &wanted, &overrides, args.common.timeout, &output)
         }
+        Command::Fmt { check, missions } => fmt::fmt(&missions, check, &output),
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),
         Command::Completions { shell } => completions::completions(shell, &output),

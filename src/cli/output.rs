@@ -103,6 +103,14 @@ impl Output {
         printed.err().unwrap_or(Status::Done)
     }
 
+    /// Prints text that a command was asked for and that even `--quiet` keeps, as it stands.
+    ///
+    /// # Errors
+    /// [`Status::Usage`] when it can't be written, which was said.
+    pub fn text(&self, text: &str) -> Result<(), Status> {
+        if self.json { Ok(()) } else { self.print(text.strip_suffix('\n').unwrap_or(text)) }
+    }
+
     /// Prints a result for programs on standard output.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::output::{JsonFailure, JsonGivenUp};
-use super::{check, compile, completions, explain, new, render, simulate, solve, verify};
+use super::{check, compile, completions, explain, fmt, new, render, simulate, solve, verify};
 use crate::{back, json, plan};
 
 /// Each schema's name and itself: a format or a command more is a line more.
@@ -26,6 +26,7 @@ fn all() -> Vec<(&'static str, Schema)> {
         ("compile", of::<Stoppable<compile::JsonCompiled>>()),
         ("completions", of::<Printed<completions::JsonScript>>()),
         ("explain", of::<Printed<explain::JsonExplained>>()),
+        ("fmt", of::<Printed<fmt::JsonFmt>>()),
         ("man", of::<Printed<completions::JsonMan>>()),
         ("new", of::<Printed<new::JsonNew>>()),
         ("render", of::<Stoppable<render::JsonRendered>>()),

@@ -18,6 +18,7 @@ mod dynamics;
 mod error;
 mod expected;
 mod expression;
+pub mod format;
 mod formula;
 mod grammar;
 mod mend;
