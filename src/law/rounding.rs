@@ -18,9 +18,9 @@
 //! So a reserve of ρ + |A| ρ + |B| σ keeps ŵ in Θ' for ever; and since ŵ_t − ρ_{t+1} is in Θ' too, x − z
 //! itself is in Ω, not only e'.
 //!
-//! The bounds are those of numerical analysis for sums in order (N. J. Higham, *Accuracy and Stability
-//! of Numerical Algorithms*, §3.1): with unit roundoff u, a sum of T products is off by at most
-//! γ_T = T u / (1 − T u) times the sum of their sizes. To them come the rounding of the measured state
+//! The bounds are those of numerical analysis for inner products (N. J. Higham, *Accuracy and Stability
+//! of Numerical Algorithms*, §3.1): with unit roundoff u, a sum of T products, added in whatever order, is
+//! off by at most γ_T = T u / (1 − T u) times the sum of their sizes. To them come the rounding of the measured state
 //! and of the tables to the type, the bounds that are rounded inwards, and what gets lost in products
 //! below the least normal number, which hardware may take for 0.
 
@@ -156,7 +156,7 @@ impl Type {
         if self.holds_doubles { Rational::ZERO } else { self.rounding(size) }
     }
 
-    /// On a sum of products in order: γ_T times their sizes, the tables' own errors, and underflow
+    /// On a sum of products: γ_T times their sizes, the tables' own errors, and underflow
     /// (each product's, at most doubled by what comes after it).
     fn sum(&self, terms: &Terms, i: usize) -> Rational {
         let count = whole(terms.count);

@@ -403,7 +403,8 @@ fn unusable<C: Column>(column: &C) -> Option<usize> {
     found
 }
 
-/// Adds to `sum` each column of some matrices times its entry of the disturbances, in order.
+/// Adds to `sum` some matrices times the disturbances: matrix by matrix, of each the columns in order.
+/// (Products of different matrices do not wait for each other so.)
 fn accumulate<R, C, X>(sum: &mut C, columns: &[C], disturbances: &[X])
 where
     R: Real,
@@ -412,10 +413,14 @@ where
 {
     let mut columns = columns.iter();
     for disturbance in disturbances {
+        let mut product = sum.zeros();
         for (&factor, column) in disturbance.entries().iter().zip(columns.by_ref()) {
-            for (sum, &entry) in sum.entries_mut().iter_mut().zip(column.entries()) {
-                *sum = *sum + entry * factor;
+            for (product, &entry) in product.entries_mut().iter_mut().zip(column.entries()) {
+                *product = *product + entry * factor;
             }
+        }
+        for (sum, &product) in sum.entries_mut().iter_mut().zip(product.entries()) {
+            *sum = *sum + product;
         }
     }
 }
