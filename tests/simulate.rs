@@ -335,3 +335,24 @@ fn pictures_show_the_runs_that_are_asked_for() {
     let held = draw("e.svg", &["--runs", "3", "--disturbance", "held", "--exceed", "2", "--steps", "40"]);
     assert_ne!(three, held);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_says_what_was_reached_and_leaves_no_table() {
+    use std::process::Stdio;
+    use std::time::Duration;
+    let planned = example("relay");
+    let (dir, plan, mission) = on_disk(planned);
+    let csv = dir.path().join("runs.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dosmc"));
+    let args = ["simulate", &plan, &mission, "--runs", "1000000000"];
+    let child = command.args(args).arg("--csv").arg(&csv).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = child.current_dir(env!("CARGO_MANIFEST_DIR")).spawn().expect("it starts");
+    std::thread::sleep(Duration::from_millis(1000));
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill is there");
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.starts_with("interrupted after ") && said.contains("of 1000000000"), "{said}");
+    assert_eq!(std::fs::read_dir(dir.path()).expect("it is there").count(), 1, "the plan alone");
+}
