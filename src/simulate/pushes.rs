@@ -187,6 +187,33 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_target_is_met_by_the_signs_before_it() {
+        let tube = Tube {
+            dynamics: String::new(),
+            center: vec![0.0; 2],
+            half_width: vec![1.0; 2],
+            reserve: vec![0.0; 2],
+            d: vec![vec![vec![1.0, 0.0], vec![0.0, 1.0]], vec![vec![0.5, -2.0], vec![0.0, 0.0]]],
+            m: vec![vec![vec![0.0, 3.0]], vec![vec![-1.0, 1.0]]],
+        };
+        let pusher = Pusher { mean: vec![10.0, 0.0], reach: vec![1.0, 0.25], tube: &tube };
+        let pushed = |state: Vec<f64>, input: Vec<f64>| {
+            let mut pushes = vec![7.0; 10];
+            pusher.aim(&Part { robot: 0, state, input }, 4, &mut pushes);
+            pushes
+        };
+        // The last push counts through D(0) and M(0), the one before through D(1) and M(1).
+        let of_state = pushed(vec![-1.0, 0.0], Vec::new());
+        assert_eq!(of_state, [7.0, 7.0, 7.0, 7.0, 9.0, 0.25, 9.0, 7.0, 7.0, 7.0]);
+        let of_input = pushed(Vec::new(), vec![2.0]);
+        assert_eq!(of_input, [7.0, 7.0, 7.0, 7.0, 9.0, 0.25, 7.0, 0.25, 7.0, 7.0]);
+        let mut held = vec![0.0; 4];
+        let part = Part { robot: 0, state: vec![1.0, 1.0], input: Vec::new() };
+        pusher.held(Some(&part), &mut Stream::new(0, 0), &mut held);
+        assert_eq!(held, [11.0, -0.25, 11.0, -0.25], "the signs of the sums 1.5 and −1");
+    }
+
+    #[test]
     fn samples_go_round_the_loop() {
         let lasso = Lasso { last: 5, loop_start: 3, memory: 2 };
         let steps: Vec<usize> = (0..12).map(|t| lasso.step(t)).collect();

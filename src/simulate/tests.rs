@@ -181,6 +181,26 @@ fn a_link_that_is_lost_matters_only_where_it_is_needed() {
 }
 
 #[test]
+fn who_is_lost_relays_for_nobody() {
+    let jammer = (BlockerKind::Jammer, disc(&[1.5, -3.0], 0.25));
+    let places = [[-3.0, 0.0], [3.0, 0.0], [-9.0, 0.0]];
+    let (mut problem, mut plan) = standing(&places, &[jammer], Some([0.0, -6.0]));
+    let link =
+        |from: &str, to: &str| Link { from: from.into(), to: to.into(), hops: 1, separators: Vec::new() };
+    let all = [("R2", "B"), ("R0", "B"), ("R2", "R0"), ("R1", "R0"), ("R1", "B")].map(|(a, b)| link(a, b));
+    plan.links = Some(vec![all.to_vec(); 2]);
+    let ways = places.map(|place| [place; 2]);
+    let ways: Vec<&[[f64; 2]]> = ways.iter().map(|way| &way[..]).collect();
+    for (redundancy, cut_off) in [(0, 0), (1, 2)] {
+        // The last link is cut. Without R0, which R2 still has a link to, R1 has nobody.
+        problem.connectivity.as_mut().expect("links").redundancy = redundancy;
+        let samples = found(&problem, &plan, &ways).samples;
+        assert_eq!(samples.shortfalls(Kind::Link), 2);
+        assert_eq!(samples.shortfalls(Kind::Connectivity), cut_off, "{redundancy} lost");
+    }
+}
+
+#[test]
 fn labels_and_goals_are_those_of_real_positions() {
     let (mut problem, mut plan) = standing(&[[0.0, 0.0]], &[], None);
     let shape = box_shape(&[-1.0, -1.0], &[1.0, 1.0]);
