@@ -82,6 +82,9 @@ fn verdict(summary: &JsonSummary) -> String {
         let count = grouped(summary.excess_reported);
         let runs = counted(summary.runs_with_excess as usize, "run");
         let _ = write!(text, "\nmonitors reported more than was assumed {count} times, in {runs}");
+        if summary.float == "f32" && summary.exceed <= 1.0 {
+            text.push_str("\n(single precision wants a plan that `solve --float f32` has made)");
+        }
     } else {
         text.push_str("\nno monitor reported more than was assumed");
     }
