@@ -394,13 +394,11 @@ where
 
 /// The first entry that is no number, or no finite one. All are looked at in any case.
 fn unusable<C: Column>(column: &C) -> Option<usize> {
-    let mut found = None;
-    for (component, entry) in column.entries().iter().enumerate() {
-        if found.is_none() && !entry.is_finite() {
-            found = Some(component);
-        }
+    let mut usable = true;
+    for entry in column.entries() {
+        usable &= entry.is_finite();
     }
-    found
+    if usable { None } else { column.entries().iter().position(|entry| !entry.is_finite()) }
 }
 
 /// Adds to `sum` some matrices times the disturbances: matrix by matrix, of each the columns in order.
@@ -411,10 +409,17 @@ where
     C: Column<Entry = R>,
     X: Column<Entry = R>,
 {
-    let mut columns = columns.iter();
+    let mut rest = columns;
     for disturbance in disturbances {
+        let width = disturbance.entries().len();
+        let (matrix, next) = match (rest.get(..width), rest.get(width..)) {
+            (Some(matrix), Some(next)) => (matrix, next),
+            // Of the oldest disturbance nothing is left to be predicted.
+            _ => return,
+        };
+        rest = next;
         let mut product = sum.zeros();
-        for (&factor, column) in disturbance.entries().iter().zip(columns.by_ref()) {
+        for (&factor, column) in disturbance.entries().iter().zip(matrix) {
             for (product, &entry) in product.entries_mut().iter_mut().zip(column.entries()) {
                 *product = *product + entry * factor;
             }
@@ -452,6 +457,15 @@ fn confine<C: Column>(column: &mut C, bounds: &Bounds<C>, nominal: &C) {
 /// beyond in proportion to its width.
 fn most_beyond<C: Column>(column: &C, bounds: &Bounds<C>) -> Option<Reading<C::Entry>> {
     let ends = bounds.lo.entries().iter().zip(bounds.hi.entries());
+    let mut any = false;
+    for (&entry, (&lo, &hi)) in column.entries().iter().zip(ends.clone()) {
+        any |= entry < lo;
+        any |= entry > hi;
+    }
+    // Mostly it is within, and nothing has to be compared.
+    if !any {
+        return None;
+    }
     let mut most: Option<(Reading<C::Entry>, C::Entry)> = None;
     for (component, (&entry, (&lo, &hi))) in column.entries().iter().zip(ends).enumerate() {
         let (amount, width) = (if entry < lo { lo - entry } else { entry - hi }, hi - lo);
@@ -470,6 +484,14 @@ fn most_beyond<C: Column>(column: &C, bounds: &Bounds<C>) -> Option<Reading<C::E
 /// than near.
 fn nearest<C: Column>(column: &C, bounds: &Bounds<C>, near: &C) -> Option<Reading<C::Entry>> {
     let ends = bounds.lo.entries().iter().zip(bounds.hi.entries());
+    let mut any = false;
+    for ((&entry, &near), (&lo, &hi)) in column.entries().iter().zip(near.entries()).zip(ends.clone()) {
+        any |= entry - lo < near;
+        any |= hi - entry < near;
+    }
+    if !any {
+        return None;
+    }
     let mut least: Option<(Reading<C::Entry>, C::Entry)> = None;
     for (component, ((&entry, &near), (&lo, &hi))) in
         column.entries().iter().zip(near.entries()).zip(ends).enumerate()
