@@ -21,8 +21,8 @@
 //! lies in its box, `x − z` lies in the tube that the plan was proved with, for ever. The monitor
 //! says after every measurement whether that still holds.
 //!
-//! How often each loop runs follows from the tables alone. There is no path to a panic, no allocation
-//! and no recursion.
+//! The tables alone bound how often each loop runs; only where something is beyond a bound, or no number,
+//! is it looked for which. There is no path to a panic, no allocation and no recursion.
 
 use core::mem;
 use core::ops::{Add, Mul, Sub};
@@ -296,14 +296,13 @@ where
 
     /// The input for a measured state, and what the monitor says of it.
     pub fn step(&mut self, x: &X) -> (U, Status<R>) {
-        if let Some(component) = unusable(x) {
-            return self.unmeasured(Assumption::NotANumber { component });
-        }
         let error = difference(x, &self.path.moment(self.step).z);
         let mut predicted = error.zeros();
         accumulate(&mut predicted, self.tube.errors, self.history.as_ref());
         let disturbance = difference(&error, &predicted);
+        // What is wrong with the measurement shows here; what is right may be too large to compute with.
         if let Some(component) = unusable(&disturbance) {
+            let component = unusable(x).unwrap_or(component);
             return self.unmeasured(Assumption::NotANumber { component });
         }
         let assumption = match most_beyond(&disturbance, &self.tube.disturbance) {
@@ -392,7 +391,7 @@ where
     }
 }
 
-/// The first entry that is no number, or no finite one. All are looked at in any case.
+/// The first entry that is no number, or no finite one.
 fn unusable<C: Column>(column: &C) -> Option<usize> {
     let mut usable = true;
     for entry in column.entries() {

@@ -11,8 +11,19 @@ use super::way::Way;
 use super::world::{Beam, End, World};
 use crate::ir::Norm;
 
-/// Robots and what pieces they are linked past, at one moment.
+/// Where a link's ends are, at one moment.
 type Ends = (Point, Point);
+
+/// What is needed again for every step: room that is not asked for anew.
+#[derive(Default)]
+pub(super) struct Scratch {
+    /// Of the links of the sample before and after: those that no plane clears.
+    open: [Vec<usize>; 2],
+    /// How each robot's step bends.
+    bends: Vec<Bend>,
+    /// How far the links before and after are from being broken.
+    strengths: [Vec<f64>; 2],
+}
 
 impl Inspector<'_> {
     /// The links that the plan relies on.
@@ -71,44 +82,60 @@ impl Inspector<'_> {
         let world = self.world;
         let step = world.lasso.step(sample);
         let [old, new] = [sample, sample + 1].map(|s| &world.links[world.lasso.step(s)]);
-        let open_old = self.open(old, (sample, world.slot(step, false, 0)), places);
-        if open_old.is_empty() {
-            return;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let [open_old, open_new] = &mut scratch.open;
+        self.open(old, (sample, world.slot(step, false, 0)), places, open_old);
+        if !open_old.is_empty() {
+            self.open(new, (sample, world.slot(step, true, 0)), places, open_new);
+            if !open_new.is_empty() {
+                self.links_between(sample, places, ways, &mut scratch);
+            }
         }
-        let open_new = self.open(new, (sample, world.slot(step, true, 0)), places);
-        if open_new.is_empty() {
-            return;
-        }
-        let bends: Vec<Bend> =
-            ways.iter().enumerate().map(|(robot, way)| self.bend(robot, sample, way)).collect();
+        self.scratch = scratch;
+    }
+
+    /// The links at the instants between two samples, of both of which some are open.
+    fn links_between(&mut self, sample: usize, places: &[Vec<Point>], ways: &[Way], scratch: &mut Scratch) {
+        let world = self.world;
+        let step = world.lasso.step(sample);
+        let [old, new] = [sample, sample + 1].map(|s| &world.links[world.lasso.step(s)]);
+        let Scratch { open: [open_old, open_new], bends, strengths: [old_ones, new_ones] } = scratch;
+        bends.clear();
+        bends.extend(ways.iter().enumerate().map(|(robot, way)| self.bend(robot, sample, way)));
         for instant in 1..PARTS {
             let place = |robot: usize| {
                 let (from, to) = (&places[robot][sample], &places[robot][sample + 1]);
                 bends[robot].place(from, to, instant)
             };
             let enough = self.between.level(Kind::Link) + world.guard;
-            let mut strengths = |beams: &[Beam], open: &[usize], late: bool| {
-                let mut all = vec![enough; beams.len()];
+            let mut strengths = |all: &mut Vec<f64>, beams: &[Beam], open: &[usize], late: bool| {
+                all.clear();
+                all.resize(beams.len(), enough);
                 for &beam in open {
                     let slot = world.slot(step, late, beam);
                     let planes = &mut self.planes[slot..slot + world.opaque.len()];
                     all[beam] = strength(world, planes, &ends(world, &beams[beam], place), enough);
                 }
-                all
             };
-            let old_ones = strengths(old, &open_old, false);
+            strengths(old_ones, old, open_old, false);
             if old_ones.iter().all(|s| *s >= enough) {
                 continue;
             }
-            let new_ones = strengths(new, &open_new, true);
+            strengths(new_ones, new, open_new, true);
             if new_ones.iter().any(|s| *s < enough) {
-                self.weak((sample, instant), (old, &old_ones), (new, &new_ones));
+                self.weak((sample, instant), (old, old_ones), (new, new_ones));
             }
         }
     }
 
     /// The links that no plane clears until the next sample.
-    fn open(&self, beams: &[Beam], (sample, slot): (usize, usize), places: &[Vec<Point>]) -> Vec<usize> {
+    fn open(
+        &self,
+        beams: &[Beam],
+        (sample, slot): (usize, usize),
+        places: &[Vec<Point>],
+        open: &mut Vec<usize>,
+    ) {
         let world = self.world;
         let needed = self.between.level(Kind::Link) + world.guard;
         let pieces = world.opaque.len();
@@ -130,7 +157,8 @@ impl Inspector<'_> {
             };
             !(self.planes[from..from + pieces].iter().all(before) && longest() >= needed)
         };
-        beams.iter().enumerate().filter(is_open).map(|(index, _)| index).collect()
+        open.clear();
+        open.extend(beams.iter().enumerate().filter(is_open).map(|(index, _)| index));
     }
 
     /// Notes an instant at which some link of either list is weak.

@@ -5,6 +5,7 @@
 //! below the least one so far, is computed.
 
 use super::body::{Body, Plane, Point, minus};
+use super::contact::Scratch;
 use super::goals::{Evaluation, Labels, Trace};
 use super::motion::{Bend, PARTS};
 use super::tally::{Against, Book, Kind, Spot, Tally, short_of};
@@ -63,6 +64,7 @@ pub(super) struct Inspector<'w> {
     /// By robot and track: where it is certainly in, and certainly out.
     labels: Vec<Vec<[Vec<bool>; 2]>>,
     evaluation: Evaluation,
+    pub(super) scratch: Scratch,
     pub(super) run: u64,
     violated: bool,
 }
@@ -85,6 +87,7 @@ impl<'w> Inspector<'w> {
             first_excess: vec![None; robots],
             labels,
             evaluation: Evaluation::default(),
+            scratch: Scratch::default(),
             run: 0,
             violated: false,
         }
