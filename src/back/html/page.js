@@ -296,7 +296,19 @@
     clock += (passed / 1000) * Number(byId("speed").value);
     now = still.matches ? Math.floor(clock) : clock;
     show();
-    window.requestAnimationFrame(frame);
+    next();
+  };
+  // A browser that draws nothing, busy or behind other windows, is not waited for.
+  const next = () => {
+    let done = false;
+    const once = (time) => {
+      if (!done) {
+        done = true;
+        frame(time);
+      }
+    };
+    window.requestAnimationFrame(once);
+    window.setTimeout(() => once(performance.now()), 100);
   };
   let clock = 0;
   const play = (wanted) => {
@@ -306,7 +318,7 @@
     byId("toggle").querySelector("path").setAttribute("d", playing ? "M3 2h4v12H3zM9 2h4v12H9z" : "M3 2l11 6-11 6z");
     clock = now;
     before = null;
-    if (playing) window.requestAnimationFrame(frame);
+    if (playing) next();
   };
   const go = (step) => {
     play(false);
