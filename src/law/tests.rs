@@ -8,8 +8,9 @@ use proptest::prelude::*;
 use super::tracking::{
     Assumption, Bounds, Containment, Fallback, Moment, Path, Reading, Real, Status, Tracker, Tube,
 };
-use super::{Feedback, Float, Magnitudes, Rounding, SOURCE, TubeTables};
+use super::{Feedback, Flight, Float, Magnitudes, Misfit, Promise, Rounding, SOURCE, TubeTables, fit};
 use crate::exact::{Rational, RationalMatrix, dot};
+use crate::geometry::HalfSpace;
 use crate::ir::Model;
 use crate::ir::sample::{empty, exact, integrators, model, point};
 
@@ -162,27 +163,62 @@ fn the_source_stands_alone() {
     }
 }
 
-/// Two integrators in a row on two axes at 0.5 s, with dead-beat gains, for nominal states up to a size.
-fn rounding(float: Float, size: i64) -> Rounding {
-    let model = integrators(2, 4.0, &[4.0]);
-    let block = |matrix: [[f64; 2]; 2]| -> Vec<Vec<f64>> {
-        let [a, b] = matrix;
-        vec![
-            vec![a[0], a[1], 0.0, 0.0],
-            vec![b[0], b[1], 0.0, 0.0],
-            vec![0.0, 0.0, a[0], a[1]],
-            vec![0.0, 0.0, b[0], b[1]],
-        ]
+/// A half-width a state, D and M: dead-beat gains for two integrators in a row on two axes at 0.5 s.
+type Feeding = ([f64; 4], Vec<Vec<Vec<f64>>>, Vec<Vec<Vec<f64>>>);
+
+fn dead_beat() -> Feeding {
+    let block = |[a, b]: [[f64; 2]; 2]| {
+        let rows =
+            [[a[0], a[1], 0.0, 0.0], [b[0], b[1], 0.0, 0.0], [0.0, 0.0, a[0], a[1]], [0.0, 0.0, b[0], b[1]]];
+        rows.map(Vec::from).to_vec()
     };
     let gains = |row: [f64; 2]| vec![vec![row[0], row[1], 0.0, 0.0], vec![0.0, 0.0, row[0], row[1]]];
     let d = vec![block([[1.0, 0.0], [0.0, 1.0]]), block([[0.5, 0.125], [-2.0, -0.5]])];
-    let m = vec![gains([-4.0, -3.0]), gains([4.0, 1.0])];
-    let half_width = [0.25, 0.5, 0.25, 0.5];
+    ([0.25, 0.5, 0.25, 0.5], d, vec![gains([-4.0, -3.0]), gains([4.0, 1.0])])
+}
+
+/// What rounding takes of that law for nominal states up to a size.
+fn rounding(float: Float, size: i64) -> Rounding {
+    let model = integrators(2, 4.0, &[4.0]);
+    let (half_width, d, m) = dead_beat();
     let feedback = Feedback { center: &[0.0; 4], half_width: &half_width, d: &d, m: &m };
     let problem = empty(vec![model.clone()], 100.0);
     let tables = TubeTables::new(float, &model, &problem.workspace, &feedback).expect("finite");
     let magnitudes = Magnitudes { state: vec![Rational::from(size); 4], input: vec![Rational::ONE; 2] };
     Rounding::new(float, &model, &feedback, &tables, &magnitudes).expect("finite")
+}
+
+/// What comes of a plan that stands at one place, with that law.
+fn fitted(float: Float, model: &Model, reserve: f64, start: f64, z: f64) -> Result<(), Misfit> {
+    let (half_width, d, m) = dead_beat();
+    let feedback = Feedback { center: &[0.0; 4], half_width: &half_width, d: &d, m: &m };
+    let workspace = empty(vec![model.clone()], 100.0).workspace;
+    let promise = Promise { model, workspace: &workspace, feedback, reserve: &[reserve; 4] };
+    let (z, v) = (vec![vec![z, 0.0, 0.0, 0.0]], vec![vec![0.0; 2]]);
+    let start = point(&[start, 0.0, 0.0, 0.0]);
+    fit(float, &promise, &[Flight { start: &start, z: &z, v: &v }]).map(drop)
+}
+
+#[test]
+fn a_plan_fits_where_rounding_has_room_everywhere() {
+    let mut model = integrators(2, 4.0, &[4.0]);
+    assert_eq!(fitted(Float::F64, &model, 1e-12, 1.0, 1.0), Ok(()));
+    let refused = fitted(Float::F32, &model, 1e-12, 1.0, 1.0);
+    assert!(matches!(&refused, Err(Misfit::Reserve { state, .. }) if state == "x0"), "{refused:?}");
+    // One disturbance off, at the very edge of its box, and a little less.
+    let edge = fitted(Float::F64, &model, 1e-12, 1.25, 1.0);
+    assert!(matches!(&edge, Err(Misfit::Start { state, .. }) if state == "x0"), "{edge:?}");
+    assert_eq!(fitted(Float::F64, &model, 1e-12, 1.25 - 1e-12, 1.0), Ok(()));
+    let large = fitted(Float::F32, &model, 1e-12, 1e300, 1e300);
+    assert!(matches!(large, Err(Misfit::Reserve { .. })), "{large:?}");
+    // The feedback of the first axis takes up to 2 (4 · 0.25) + (3 + 1) 0.5 = 4.
+    let bound =
+        |offset: f64| HalfSpace { normal: point(&[0.0, 0.0, 0.0, 0.0, 1.0, 0.0]), offset: exact(offset) };
+    model.mixed_bounds = vec![bound(4.0)];
+    let tight = fitted(Float::F64, &model, 1e-12, 1.0, 1.0);
+    assert!(matches!(tight, Err(Misfit::Bound { .. })), "{tight:?}");
+    model.mixed_bounds = vec![bound(4.0 + 1e-12)];
+    assert_eq!(fitted(Float::F64, &model, 1e-12, 1.0, 1.0), Ok(()));
 }
 
 #[test]
