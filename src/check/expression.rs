@@ -3,7 +3,6 @@
 //! In `where` an expression may also hold coordinates or states, so a value is affine in general.
 //! Evaluation runs on a stack of its own: an expression may be thousands of levels deep.
 
-use crate::check::functions::FUNCTIONS;
 use crate::check::names::Kind;
 use crate::check::{Checker, Constant, Entry, messages};
 use crate::diag::Reported;
@@ -12,6 +11,7 @@ use crate::ir::RobotId;
 use crate::quantity::{self, Dimension, Unit, UnitError};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind};
+use crate::syntax::words::FUNCTIONS;
 
 /// A value: number + Σ slope · coordinate, in coherent SI.
 #[derive(Clone, PartialEq, Debug)]

@@ -8,11 +8,10 @@ use crate::exact::Rational;
 use crate::quantity::{self, Dimension};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr};
+use crate::syntax::words::FUNCTIONS;
 
 /// The largest whole exponent that is computed exactly.
 const MAX_EXACT_EXPONENT: i64 = 64;
-/// The functions of the language.
-pub(super) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "min", "max", "abs", "floor", "mod"];
 
 impl Checker<'_> {
     /// A power: exact for small whole exponents, else the nearest double.

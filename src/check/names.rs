@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::source::Span;
 use crate::syntax::ast::{File, Item, ItemKind, Name};
-
-/// The names that every mission has without declaring them.
-pub(super) const PREDECLARED: [&str; 8] = ["pi", "sqrt", "sin", "cos", "min", "max", "abs", "floor"];
+use crate::syntax::words::PREDECLARED;
 
 /// Whether a name is one of the predeclared ones.
 pub(super) fn is_predeclared(name: &str) -> bool {
-    PREDECLARED.contains(&name) || name == "mod"
+    PREDECLARED.contains(&name)
 }
 
 /// What a name was declared as.

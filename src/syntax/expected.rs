@@ -7,7 +7,8 @@ use crate::syntax::condensed::Condensed;
 use crate::syntax::error;
 use crate::syntax::grammar::Rule;
 use crate::syntax::mend::{self, Case};
-use crate::syntax::scan::{Bracket, STARTERS};
+use crate::syntax::scan::Bracket;
+use crate::syntax::words::is_reserved;
 
 /// The longest piece of the text that a message repeats, in characters.
 const MAX_SHOWN: usize = 40;
@@ -212,40 +213,6 @@ fn phrase(rule: Rule) -> Option<&'static str> {
     })
 }
 
-/// The reserved words that begin no declaration.
-const INNER_WORDS: [&str; 25] = [
-    "in",
-    "at",
-    "or",
-    "and",
-    "not",
-    "true",
-    "false",
-    "always",
-    "eventually",
-    "next",
-    "until",
-    "release",
-    "weak",
-    "strong",
-    "count",
-    "forall",
-    "exists",
-    "all",
-    "X",
-    "F",
-    "G",
-    "U",
-    "R",
-    "W",
-    "M",
-];
-
-/// Whether a word is reserved everywhere.
-pub(super) fn is_reserved(word: &str) -> bool {
-    STARTERS.contains(&word) || INNER_WORDS.contains(&word)
-}
-
 /// Whether a token is a word.
 pub(super) fn is_word(token: &str) -> bool {
     token.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
@@ -290,34 +257,6 @@ mod tests {
         for rule in Rule::all_rules() {
             let name = name(*rule);
             assert!(!name.contains('_') || is_lexical(*rule), "{rule:?} is called {name}");
-        }
-    }
-
-    #[test]
-    fn the_grammar_reserves_the_same_words() {
-        let grammar = include_str!("../../grammar/dosm.pest");
-        let rule = grammar.split("reserved = @{").nth(1).and_then(|rest| rest.split('}').next()).unwrap();
-        let mut there: Vec<&str> = rule.split('"').skip(1).step_by(2).collect();
-        let mut here: Vec<&str> = STARTERS.iter().chain(&INNER_WORDS).copied().collect();
-        there.sort_unstable();
-        here.sort_unstable();
-        assert_eq!(there, here);
-    }
-
-    #[test]
-    fn the_words_that_begin_declarations_are_starters() {
-        let grammar = include_str!("../../grammar/dosm.pest");
-        let body = |rule: &str| {
-            let line = grammar.lines().find(|l| l.split_whitespace().take(2).eq([rule, "="]));
-            line.unwrap_or_else(|| panic!("no rule {rule}"))
-        };
-        let list = grammar.split("\ndeclaration = {").nth(1).and_then(|rest| rest.split('}').next()).unwrap();
-        let rules: Vec<&str> = list.split('|').map(str::trim).collect();
-        assert!(rules.len() > 15, "{rules:?}");
-        for rule in rules {
-            let first = body(rule).split("kw_").nth(1).and_then(|rest| rest.split([' ', '?']).next());
-            let word = first.unwrap_or_else(|| panic!("{rule} begins with no keyword"));
-            assert!(STARTERS.contains(&word), "`{word}` begins a declaration and is not in STARTERS");
         }
     }
 

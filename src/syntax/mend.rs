@@ -3,35 +3,18 @@
 use crate::diag::Diagnostic;
 use crate::source::Span;
 use crate::syntax::error;
-use crate::syntax::expected::{Failure, is_reserved, is_word, token_at};
+use crate::syntax::expected::{Failure, is_word, token_at};
 use crate::syntax::grammar::Rule;
-use crate::syntax::scan::STARTERS;
-
-/// The symbols of units.
-const UNITS: [&str; 12] = ["m", "cm", "mm", "km", "s", "ms", "min", "rad", "deg", "kg", "g", "N"];
+use crate::syntax::words::{CONNECTIVITY_ITEMS, DECLARATIONS, DYNAMICS_ITEMS, SHAPES, UNITS, is_reserved};
 
 /// The keywords that may begin what a rule matches, for the rules that messages name as a whole.
 const WORDS_OF: [(Rule, &[&str]); 7] = [
-    (Rule::EOI, &STARTERS),
-    (Rule::declaration, &STARTERS),
-    (
-        Rule::dynamics_item,
-        &[
-            "step",
-            "state",
-            "input",
-            "position",
-            "continuous",
-            "integrator",
-            "bound",
-            "disturbance",
-            "rejection",
-            "mode",
-        ],
-    ),
-    (Rule::connectivity_item, &["hops", "range", "redundancy", "every"]),
-    (Rule::shape, &["box", "ball", "disc", "polygon", "hull", "where"]),
-    (Rule::piece, &["box", "ball", "disc", "polygon", "hull", "where"]),
+    (Rule::EOI, &DECLARATIONS),
+    (Rule::declaration, &DECLARATIONS),
+    (Rule::dynamics_item, &DYNAMICS_ITEMS),
+    (Rule::connectivity_item, &CONNECTIVITY_ITEMS),
+    (Rule::shape, &SHAPES),
+    (Rule::piece, &SHAPES),
     (Rule::connective, &["and", "or", "until", "release", "weak", "strong"]),
 ];
 
@@ -350,7 +333,7 @@ fn chained_comparison(case: &Case) -> Option<Diagnostic> {
     let declared = clause.get(..first).unwrap_or("");
     // In `define p = a = b = c` the first sign is no comparison; `->` and `<->` aren't either.
     let arrow = declared.ends_with('-')
-        || clause.get(first..first + 1) == Some("=") && STARTERS.contains(&first_word(clause));
+        || clause.get(first..first + 1) == Some("=") && DECLARATIONS.contains(&first_word(clause));
     let in_clause = case.failure.expects(Rule::arithmetic) || case.failure.expects(Rule::sum_operator);
     (!arrow && in_clause).then(|| error::chained_comparison(case.span))
 }
@@ -389,7 +372,7 @@ fn innermost_bracket(text: &str) -> Option<char> {
 
 /// The word that begins declarations and is spelt nearly like this one.
 pub(super) fn nearest_starter(word: &str) -> Option<&'static str> {
-    nearest(word, STARTERS.into_iter())
+    nearest(word, DECLARATIONS.into_iter())
 }
 
 /// The candidate that is spelt nearly like a word.

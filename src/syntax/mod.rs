@@ -26,6 +26,7 @@ mod number;
 mod reader;
 mod scan;
 mod shape;
+pub mod words;
 
 pub use dump::dump;
 pub use reader::{decode, parse, parse_expression};

@@ -10,7 +10,8 @@ use crate::syntax::error;
 use crate::syntax::expected::{self, Failure, Surroundings};
 use crate::syntax::grammar::{self, Built, Node, Rule, Stop};
 use crate::syntax::mend;
-use crate::syntax::scan::{self, STARTERS, Scan, Stretch};
+use crate::syntax::scan::{self, Scan, Stretch};
+use crate::syntax::words::DECLARATIONS;
 
 /// Parses a mission.
 ///
@@ -122,7 +123,7 @@ impl<'a> Reader<'a> {
     fn check_beginning(&mut self, stretches: &[Stretch]) {
         let Some(first) = stretches.first() else { return };
         let word = expected::token_at(self.text(first), 0);
-        if word == "dosm" || !STARTERS.contains(&word) {
+        if word == "dosm" || !DECLARATIONS.contains(&word) {
             return;
         }
         let start = first.range.start;

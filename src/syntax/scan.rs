@@ -13,35 +13,13 @@ use crate::syntax::characters::{self, Character};
 use crate::syntax::condensed::Condensed;
 use crate::syntax::docs::{self, Docs};
 use crate::syntax::error;
+use crate::syntax::words::DECLARATIONS;
 
 /// The most levels of brackets, and of comments.
 pub(super) const MAX_NESTING: usize = 256;
 
 /// The longest name, in bytes.
 pub(super) const MAX_NAME: usize = 64;
-
-/// The words that begin declarations.
-pub(super) const STARTERS: [&str; 19] = [
-    "dosm",
-    "mission",
-    "param",
-    "let",
-    "workspace",
-    "region",
-    "obstacle",
-    "opaque",
-    "jammer",
-    "base",
-    "dynamics",
-    "robot",
-    "team",
-    "separation",
-    "connectivity",
-    "horizon",
-    "minimize",
-    "goal",
-    "define",
-];
 
 /// What the scan finds.
 pub(super) struct Scan {
@@ -186,7 +164,7 @@ impl<'s> Scanner<'s> {
     fn word(&mut self) {
         let length = self.run(|b| b.is_ascii_alphanumeric() || b == b'_');
         let word = self.source.get(self.position..self.position + length).unwrap_or("");
-        if STARTERS.contains(&word) && !(word == "obstacle" && self.after_opaque) {
+        if DECLARATIONS.contains(&word) && !(word == "obstacle" && self.after_opaque) {
             self.end_stretch();
         }
         if length > MAX_NAME {

@@ -5,6 +5,7 @@ use crate::diag::Diagnostic;
 use crate::exact::Rational;
 use crate::source::Span;
 use crate::syntax::ast::Name;
+use crate::syntax::words::OBJECTIVES;
 
 pub(in crate::check) fn missing_robot(span: Span) -> Diagnostic {
     let end = Span { start: span.end, end: span.end };
@@ -78,7 +79,7 @@ pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {
     let message = format!("nothing called `{}` can be minimised", word.text);
     let diagnostic =
         Diagnostic::error("dosm::check::unknown_objective", message, word.span, "not an objective");
-    match nearest(&word.text, ["effort", "length"].into_iter()) {
+    match nearest(&word.text, OBJECTIVES.into_iter()) {
         Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
         None => diagnostic.with_help("`effort` or `length`"),
     }

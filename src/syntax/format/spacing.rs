@@ -1,9 +1,7 @@
 //! What stands between two tokens of a line: one blank or none.
 
 use super::token::{Kind, Token};
-
-/// Words that an opening `(` follows at once: functions, and `count`.
-const CALLED: [&str; 10] = ["sqrt", "sin", "cos", "min", "max", "abs", "floor", "mod", "count", "pi"];
+use crate::syntax::words::PREDECLARED;
 
 /// The tokens of a line, joined as the style has it.
 pub(super) fn join(tokens: &[Token<'_>]) -> String {
@@ -39,9 +37,14 @@ pub(super) fn is_spaced(tokens: &[Token<'_>], at: usize) -> bool {
         // A window or an index; an interval has a blank before it.
         (_, "[") if before.kind == Kind::Word => before.text == "in",
         ("[]" | "<>", "[") => false,
-        (_, "(") if before.kind == Kind::Word => !CALLED.contains(&before.text),
+        (_, "(") if before.kind == Kind::Word => !is_called(before.text),
         _ => true,
     }
+}
+
+/// Whether an opening `(` follows a word at once: functions, and `count`.
+fn is_called(word: &str) -> bool {
+    PREDECLARED.contains(&word) || word == "count"
 }
 
 /// Whether the dots stand between two points, as in a box, and not between two numbers.

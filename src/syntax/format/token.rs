@@ -1,5 +1,7 @@
 //! The tokens of a text, comments included: what a formatter lays out again.
 
+use crate::syntax::words::{LONG_SIGNS, UNITS};
+
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -47,12 +49,6 @@ impl Token<'_> {
     }
 }
 
-/// The signs of more than one character, longer ones first.
-const SIGNS: [&str; 11] = ["<->", "+/-", "->", "<=", ">=", "!=", "||", "&&", "[]", "<>", ".."];
-
-/// The symbols of units, longer ones first.
-const UNITS: [&str; 12] = ["min", "rad", "deg", "mm", "cm", "km", "ms", "kg", "m", "s", "g", "N"];
-
 /// All tokens of a text. Whatever a mission can't hold comes as a sign of one character.
 pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token<'_>> = Vec::new();
@@ -98,7 +94,7 @@ fn token(text: &str) -> (Kind, usize) {
     if word > 0 {
         return (Kind::Word, word);
     }
-    let sign = SIGNS.iter().find(|sign| text.starts_with(**sign));
+    let sign = LONG_SIGNS.iter().find(|sign| text.starts_with(**sign));
     (Kind::Sign, sign.map_or(first.len_utf8(), |sign| sign.len()))
 }
 
