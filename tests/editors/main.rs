@@ -1,0 +1,8 @@
+//! The editors' plug-ins: their lists of words are the compiler's, and they work in the real editors.
+
+#![allow(clippy::disallowed_methods, reason = "reads the plug-ins and runs editors")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod generated;
