@@ -68,6 +68,7 @@ pub mod ir;
 pub mod json;
 pub mod law;
 pub mod lower;
+pub mod lsp;
 pub mod plan;
 pub mod quantity;
 pub mod simulate;

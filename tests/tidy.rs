@@ -14,7 +14,7 @@ const BASE: [&str; 7] = ["diag", "entity", "entity_id", "exact", "json", "quanti
 ///
 /// `verify` never sees what tube, abstraction, encode or solve computed; no back end sees the
 /// syntax tree; nothing sees the command line.
-const MAY_NAME: [(&str, &[&str]); 24] = [
+const MAY_NAME: [(&str, &[&str]); 25] = [
     ("entity", &[]),
     ("exact", &[]),
     ("source", &[]),
@@ -57,6 +57,8 @@ const MAY_NAME: [(&str, &[&str]); 24] = [
             "back",
         ],
     ),
+    // What it shows of a mission whose other parts are wrong, it takes from the phases themselves.
+    ("lsp", &["driver", "syntax", "typed", "check", "lower", "ir", "tube", "abstraction", "geometry"]),
     (
         "cli",
         &["driver", "explain", "syntax", "ir", "law", "tube", "solve", "plan", "verify", "simulate", "back"],

@@ -29,6 +29,8 @@ mod uncertain;
 mod vacuity;
 mod windows;
 
+pub use shapes::dimension;
+
 use std::collections::BTreeMap;
 
 use crate::check::constants::Constant;

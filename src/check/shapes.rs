@@ -39,14 +39,14 @@ impl Checker<'_> {
             return;
         }
         // Not each point shall be wrong only because the workspace could not be read.
-        self.dimension = guessed_dimension(&file.items);
+        self.dimension = dimension(&file.items);
         if !file.has_broken_keyword("workspace") {
             self.report(messages::missing_workspace(file.span));
         }
     }
 
     fn workspace_shape(&mut self, shape: &Shape, span: Span) -> Result<typed::Workspace, Reported> {
-        self.dimension = shape.pieces.iter().find_map(points_dimension).unwrap_or(2);
+        self.dimension = dimension_of(shape).unwrap_or(2);
         let [piece] = &shape.pieces[..] else {
             return Err(self.report(messages::workspace_union(shape.span)));
         };
@@ -406,16 +406,28 @@ fn moved(point: &[Rational], axis: usize, by: &Rational) -> Vec<Rational> {
     point.iter().enumerate().map(|(i, x)| if i == axis { x + by } else { x.clone() }).collect()
 }
 
-/// The dimension that the bases, robots and blockers of a mission without a workspace speak of.
+/// The dimension of a mission's shapes, 2 or 3: its workspace's, or where there is none the one that
+/// bases, robots and blockers speak of.
+pub fn dimension(items: &[Item]) -> usize {
+    let workspace = items.iter().find_map(|item| match &item.kind {
+        ItemKind::Workspace(shape) => Some(dimension_of(shape).unwrap_or(2)),
+        _ => None,
+    });
+    workspace.unwrap_or_else(|| guessed_dimension(items))
+}
+
+fn dimension_of(shape: &Shape) -> Option<usize> {
+    shape.pieces.iter().find_map(points_dimension)
+}
+
 fn guessed_dimension(items: &[Item]) -> usize {
-    let of_shape = |shape: &Shape| shape.pieces.iter().find_map(points_dimension);
     let dimension = |item: &Item| match &item.kind {
         ItemKind::Base { at, .. } | ItemKind::Robot { at: State::Position(at), .. } => {
             Some(at.coordinates.len())
         }
         ItemKind::Region { shape, .. }
         | ItemKind::Obstacle { shape, .. }
-        | ItemKind::Jammer { shape, .. } => of_shape(shape),
+        | ItemKind::Jammer { shape, .. } => dimension_of(shape),
         _ => None,
     };
     items.iter().find_map(dimension).map_or(2, |count| if count == 3 { 3 } else { 2 })

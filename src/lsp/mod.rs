@@ -1,0 +1,3 @@
+//! The language server's view of a mission.
+
+pub mod index;
