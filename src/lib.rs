@@ -30,7 +30,7 @@
 //! 8. [`law`] is what goes on the robot: one source file, its tables, and a proved bound on its rounding.
 //! 9. [`back`] draws it.
 //!
-//! [`driver`] is this chain as code. [`cli`] is the command line around it.
+//! [`driver`] is this chain as code. [`cli`] is the command line around it, and [`lsp`] what editors talk to.
 //! Below lie [`exact`] (rational numbers), [`entity`] (typed ids and tables), [`source`] (text and
 //! places in it), [`quantity`] (dimensions and units), [`geometry`] (polytopes, zonotopes) and
 //! [`json`] (strict reading, readable writing) and [`diag`] (one diagnostic for all phases).

@@ -239,6 +239,13 @@ pub enum Command {
         #[arg(required = true, value_name = "MISSION")]
         missions: Vec<PathBuf>,
     },
+    /// Serve editors: the language server, on standard input and output
+    #[command(display_order = 12, after_long_help = help::LSP)]
+    Lsp {
+        /// For clients that say so: standard input and output, which are used anyway
+        #[arg(long, hide = true)]
+        stdio: bool,
+    },
     /// Write a starter mission, NAME.dosm
     #[command(display_order = 1, after_long_help = help::NEW)]
     New {

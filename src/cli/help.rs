@@ -169,6 +169,18 @@ Where to go next:
   docs/schemas describes the JSON files; `dosmc solve NAME.smc.json` plans from an instance.";
 
 /// `fmt`.
+pub const LSP: &str = "\
+Editors start this by themselves; docs/editors says how to set each up. `--set` and `--horizon` hold
+for all missions of the session. The command `dosmc.solve` plans a mission and writes what `dosmc
+solve` writes, and plan.html, into out/NAME beside it.
+
+Examples:
+  dosmc lsp < /dev/null
+
+Exit status:
+  0  ended as the protocol asks
+  1  the client went away, or ended the session without `shutdown`";
+
 pub const FMT: &str = "\
 One declaration and one item a line, blanks where they help, tables in columns, neighbours'
 intervals, units and comments under each other. Comments stay where they belong, and so do

@@ -15,6 +15,7 @@ mod fmt;
 mod help;
 mod instance;
 mod line;
+mod lsp;
 mod mission;
 mod new;
 mod output;
@@ -114,6 +115,7 @@ fn run(args: Args) -> Status {
             simulate::simulate(&plan, &mission, &wanted, &overrides, args.common.timeout, &output)
         }
         Command::Fmt { check, missions } => fmt::fmt(&missions, check, &output),
+        Command::Lsp { stdio: _ } => lsp::lsp(&overrides, &output),
         Command::New { name } => new::new(&name, &output),
         Command::Explain { code } => explain::explain(code.as_deref(), &output),
         Command::Completions { shell } => completions::completions(shell, &output),

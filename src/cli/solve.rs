@@ -249,7 +249,7 @@ impl Ending<'_> {
     }
 }
 
-fn found(plan: &Plan, shortest: bool, encoding: Encoding, files: &[String]) -> String {
+pub(super) fn found(plan: &Plan, shortest: bool, encoding: Encoding, files: &[String]) -> String {
     let rank = match (shortest, encoding) {
         (true, Encoding::HalfSpaces) => "no shorter one exists for its tube and directions",
         (true, Encoding::Paper) => "no shorter one exists for its tube and cells",
@@ -273,7 +273,7 @@ fn shown(files: &[String]) -> Vec<String> {
     shown
 }
 
-fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {
+pub(super) fn no_plan(mission: &driver::Mission, scope: &Scope) -> String {
     let (from, to) = mission.problem.horizon;
     let widths: Vec<String> =
         scope.half_widths.iter().map(|(name, w)| format!("{name} ±({})", list(w))).collect();
@@ -292,7 +292,7 @@ fn list(numbers: &[f64]) -> String {
     numbers.iter().map(|x| format!("{x:.3}")).collect::<Vec<_>>().join(", ")
 }
 
-fn why_unknown(reason: Reason, cause: Option<Cause>) -> (&'static str, &'static str) {
+pub(super) fn why_unknown(reason: Reason, cause: Option<Cause>) -> (&'static str, &'static str) {
     match reason {
         Reason::Numerics => ("numerics", "some length could not be decided numerically"),
         Reason::Stopped => {
@@ -302,7 +302,7 @@ fn why_unknown(reason: Reason, cause: Option<Cause>) -> (&'static str, &'static 
     }
 }
 
-fn unknown(why: &str, reached: usize, elapsed: Duration) -> String {
+pub(super) fn unknown(why: &str, reached: usize, elapsed: Duration) -> String {
     let at = if reached == 0 { "before the search began".into() } else { format!("at length {reached}") };
     format!("unknown: {why} {at}, after {:.1} s; no plan was written", elapsed.as_secs_f64())
 }

@@ -6,6 +6,7 @@
 //! units and comments. An author's empty lines stay, one at a time, and so do line breaks inside formulas.
 //! A declaration that can't be read is left as it is.
 
+mod edits;
 mod layout;
 mod sheet;
 mod spacing;
@@ -45,6 +46,15 @@ pub fn format(source: &SourceFile, diagnostics: &mut Diagnostics) -> Result<Form
     } else {
         Ok(Formatted { text: source.text.clone(), left })
     }
+}
+
+/// The edits that [`format`] would make, gap by gap between tokens and in order, so that an editor keeps its
+/// marks and cursors.
+///
+/// # Errors
+/// As for [`format`].
+pub fn edits(source: &SourceFile, diagnostics: &mut Diagnostics) -> Result<Vec<(Span, String)>, Reported> {
+    Ok(edits::between(&source.text, &format(source, diagnostics)?.text))
 }
 
 /// A declaration, or one that could not be read.

@@ -192,3 +192,32 @@ proptest! {
         }
     }
 }
+
+/// A text after some edits, made all at once.
+fn edited(text: &str, edits: &[(Span, String)]) -> String {
+    let mut result = String::new();
+    let mut from = 0;
+    for (span, new) in edits {
+        assert!(from <= span.range().start, "edits stand in order");
+        result.push_str(&text[from..span.range().start]);
+        result.push_str(new);
+        from = span.range().end;
+    }
+    result + &text[from..]
+}
+
+#[test]
+fn edits_touch_nothing_but_blanks_and_make_the_formatted_text() {
+    for text in corpus() {
+        for text in [with_blanks(&text, " \n  "), with_blanks(&text, "\t"), text] {
+            let source = SourceFile::new("m.dosm", text);
+            let Ok(formatted) = format(&source, &mut Diagnostics::new()) else { continue };
+            let edits = edits(&source, &mut Diagnostics::new()).expect("it can be formatted");
+            assert_eq!(edited(&source.text, &edits), formatted.text);
+            let is_blank = |t: &str| t.chars().all(|c| c.is_whitespace() || c == ';');
+            let touched = edits.iter().find(|(span, new)| !is_blank(source.slice(*span)) || !is_blank(new));
+            assert_eq!(touched, None);
+        }
+    }
+    assert!(edits(&SourceFile::new("m", "dosm 1\n"), &mut Diagnostics::new()).is_ok_and(|e| e.is_empty()));
+}

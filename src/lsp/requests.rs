@@ -1,0 +1,57 @@
+//! The requests that the worker answers.
+
+use std::sync::Arc;
+
+use lsp_server::{ErrorCode, ResponseError};
+use lsp_types::Uri;
+use lsp_types::request::{self, Request};
+use serde_json::Value;
+
+use super::document::Document;
+use super::queue::Job;
+use super::session::{Session, refusal};
+use super::{formatting, lens};
+
+/// The answer to a request.
+///
+/// # Errors
+/// What the client is told instead: unknown methods and documents, parameters that can't be read.
+pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
+    let Job { method, params, documents, .. } = job;
+    let open = |uri: &Uri| {
+        let missing = || refusal(ErrorCode::InvalidParams, format!("{} is not open", uri.as_str()));
+        documents.get(uri.as_str()).cloned().ok_or_else(missing)
+    };
+    /// Answers a request about a document: its parameters' field with the identifier, and the answer.
+    macro_rules! about {
+        ($request:ty, |$params:ident| $uri:expr, |$document:ident| $answer:expr) => {
+            on::<$request>(params, |$params| {
+                let $document: Arc<Document> = open(&$uri.uri)?;
+                Ok($answer)
+            })
+        };
+    }
+    match method.as_str() {
+        request::Formatting::METHOD => {
+            about!(request::Formatting, |p| p.text_document, |d| formatting::whole(&d))
+        }
+        request::RangeFormatting::METHOD => {
+            about!(request::RangeFormatting, |p| p.text_document, |d| formatting::range(&d, p.range))
+        }
+        request::CodeLensRequest::METHOD => {
+            about!(request::CodeLensRequest, |p| p.text_document, |d| Some(lens::lenses(&d, session)))
+        }
+        _ => Err(refusal(ErrorCode::MethodNotFound, format!("`{method}` is not known here"))),
+    }
+}
+
+/// Reads a request's parameters, and makes its answer a value.
+fn on<R: Request>(
+    params: Value,
+    act: impl FnOnce(R::Params) -> Result<R::Result, ResponseError>,
+) -> Result<Value, ResponseError> {
+    let params =
+        serde_json::from_value(params).map_err(|e| refusal(ErrorCode::InvalidParams, e.to_string()))?;
+    let result = act(params)?;
+    serde_json::to_value(result).map_err(|e| refusal(ErrorCode::InternalError, e.to_string()))
+}

@@ -1,0 +1,220 @@
+//! What the threads of a server share.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
+use lsp_types::{ClientCapabilities, Uri};
+use serde::Serialize;
+use serde_json::Value;
+
+use super::document::Document;
+use super::lines::Encoding;
+use super::solve::Runs;
+use super::wire;
+use super::{Host, diagnostics};
+use crate::driver::Overrides;
+
+/// The open missions, by their URIs.
+pub type Documents = BTreeMap<String, Arc<Document>>;
+
+/// What the client can do.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Client {
+    /// What columns count.
+    pub encoding: Encoding,
+    /// Whether it shows the progress of what the server does.
+    pub progress: bool,
+    /// Whether it opens files that the server names.
+    pub show_document: bool,
+    /// Whether it shows links behind codes.
+    pub code_links: bool,
+    /// Whether it asks again for lenses when told to.
+    pub refresh_lenses: bool,
+}
+
+impl Client {
+    /// What the capabilities that a client sends say.
+    pub fn new(capabilities: &ClientCapabilities) -> Client {
+        let general = capabilities.general.as_ref();
+        let window = capabilities.window.as_ref();
+        let text = capabilities.text_document.as_ref();
+        Client {
+            encoding: Encoding::agree(general.and_then(|g| g.position_encodings.as_deref())),
+            progress: window.and_then(|w| w.work_done_progress).unwrap_or(false),
+            show_document: window.and_then(|w| w.show_document.as_ref()).is_some_and(|s| s.support),
+            code_links: text
+                .and_then(|t| t.publish_diagnostics.as_ref()?.code_description_support)
+                .unwrap_or(false),
+            refresh_lenses: capabilities
+                .workspace
+                .as_ref()
+                .and_then(|w| w.code_lens.as_ref()?.refresh_support)
+                .unwrap_or(false),
+        }
+    }
+}
+
+/// What the threads of a server share.
+pub struct Session {
+    /// What the client can do.
+    pub client: Client,
+    /// What the command line says about all missions.
+    pub overrides: Overrides,
+    /// Files, clock and planner.
+    pub host: Arc<dyn Host>,
+    /// The runs of the planner.
+    pub runs: Runs,
+    outgoing: Sender<Value>,
+    documents: Mutex<Arc<Documents>>,
+    /// The requests that have no answer yet; who takes one out answers it.
+    pending: Mutex<BTreeSet<RequestId>>,
+    /// The missions that could not be read or checked when they were last looked at.
+    wrong: Mutex<BTreeSet<String>>,
+    requests: AtomicI32,
+}
+
+impl Session {
+    /// A session without documents.
+    pub fn new(
+        client: Client,
+        overrides: Overrides,
+        host: Arc<dyn Host>,
+        outgoing: Sender<Value>,
+    ) -> Session {
+        Session {
+            client,
+            overrides,
+            host,
+            runs: Runs::default(),
+            outgoing,
+            documents: Mutex::default(),
+            pending: Mutex::default(),
+            wrong: Mutex::default(),
+            requests: AtomicI32::new(0),
+        }
+    }
+
+    /// The open missions as they are now.
+    pub fn documents(&self) -> Arc<Documents> {
+        Arc::clone(&lock(&self.documents))
+    }
+
+    /// A mission as it is now.
+    pub fn document(&self, uri: &Uri) -> Option<Arc<Document>> {
+        lock(&self.documents).get(uri.as_str()).cloned()
+    }
+
+    /// Opens a mission, or puts a later moment of it in the earlier one's place.
+    pub fn put(&self, document: Document) {
+        let key = document.uri.as_str().to_string();
+        Arc::make_mut(&mut lock(&self.documents)).insert(key, Arc::new(document));
+    }
+
+    /// Closes a mission.
+    pub fn close(&self, uri: &Uri) {
+        Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str());
+    }
+
+    /// Notes whether a mission has errors, and tells whether it had any before.
+    pub fn was_wrong(&self, document: &Document, is_wrong: bool) -> bool {
+        let (mut wrong, key) = (lock(&self.wrong), document.uri.as_str());
+        let was = wrong.remove(key);
+        if is_wrong {
+            wrong.insert(key.to_string());
+        }
+        was
+    }
+
+    /// Notes that a request has come; false if there is one of its id.
+    pub fn begin(&self, id: &RequestId) -> bool {
+        lock(&self.pending).insert(id.clone())
+    }
+
+    /// Whether a request still wants an answer.
+    pub fn is_wanted(&self, id: &RequestId) -> bool {
+        lock(&self.pending).contains(id)
+    }
+
+    /// Answers a request, unless that was done.
+    pub fn answer(&self, id: RequestId, result: Result<Value, ResponseError>) {
+        if lock(&self.pending).remove(&id) {
+            self.send(&Message::Response(Response { id, response_result: result }));
+        }
+    }
+
+    /// Answers a request that the client wants no more.
+    pub fn cancel(&self, id: RequestId) {
+        self.answer(id, Err(refusal(ErrorCode::RequestCanceled, "cancelled")));
+    }
+
+    /// Tells the client something.
+    pub fn notify<N: lsp_types::notification::Notification>(&self, params: N::Params)
+    where
+        N::Params: Serialize,
+    {
+        let params = serde_json::to_value(params).unwrap_or_default();
+        self.send(&Message::Notification(Notification { method: N::METHOD.into(), params }));
+    }
+
+    /// Asks the client something to which the answer does not matter.
+    pub fn ask<R: lsp_types::request::Request>(&self, params: R::Params)
+    where
+        R::Params: Serialize,
+    {
+        let id = RequestId::from(self.requests.fetch_add(1, Ordering::Relaxed));
+        let params = serde_json::to_value(params).unwrap_or_default();
+        self.send(&Message::Request(Request { id, method: R::METHOD.into(), params }));
+    }
+
+    /// Publishes what is known to be wrong with a mission, with what came of planning it.
+    pub fn publish(&self, document: &Document) {
+        let outcome = self.runs.outcome(document);
+        self.notify::<lsp_types::notification::PublishDiagnostics>(lsp_types::PublishDiagnosticsParams {
+            uri: document.uri.clone(),
+            diagnostics: diagnostics::all(document, outcome.as_ref(), self),
+            version: Some(document.version),
+        });
+    }
+
+    /// Has the client ask for its lenses again.
+    pub fn refresh_lenses(&self) {
+        if self.client.refresh_lenses {
+            self.ask::<lsp_types::request::CodeLensRefresh>(());
+        }
+    }
+
+    /// Opens a file beside the editor, if the client can.
+    pub fn show(&self, path: &Path, external: bool) {
+        let Some(uri) = super::location::uri(path).filter(|_| self.client.show_document) else { return };
+        self.ask::<lsp_types::request::ShowDocument>(lsp_types::ShowDocumentParams {
+            uri,
+            external: Some(external),
+            take_focus: Some(true),
+            selection: None,
+        });
+    }
+
+    /// Sends anything; who has gone hears nothing.
+    pub fn send(&self, message: &Message) {
+        self.send_value(wire::encode(message));
+    }
+
+    /// Sends anything, as JSON.
+    pub fn send_value(&self, value: Value) {
+        let _ = self.outgoing.send(value);
+    }
+}
+
+/// An error to answer with.
+pub fn refusal(code: ErrorCode, message: impl Into<String>) -> ResponseError {
+    ResponseError { code: code as i32, message: message.into(), data: None }
+}
+
+/// A mutex's value, whatever happened to those who held it before.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
