@@ -85,6 +85,7 @@ impl Checker<'_> {
     pub(super) fn resolve_every(&mut self) {
         let Some((every, span)) = self.settings.every.take() else { return };
         let Ok(steps) = self.every_in_steps(&every, span) else { return };
+        self.note_steps(span, (steps, steps));
         if let Some(connectivity) = &mut self.settings.connectivity {
             connectivity.every = steps;
         }

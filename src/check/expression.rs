@@ -110,6 +110,7 @@ impl Checker<'_> {
                     if !value.in_range() {
                         return Err(self.report(messages::number_out_of_range(expr.span)));
                     }
+                    self.note_value(expr, &value);
                     values.push(value);
                 }
             }
@@ -137,10 +138,16 @@ impl Checker<'_> {
         expected: Dimension,
     ) -> Result<Rational, Reported> {
         let value = self.evaluate(expr, scope)?;
-        let Some(unit) = unit else { return self.expect_dimension(value, expr.span, expected) };
-        let value = self.with_unit(value, unit, expr.span)?;
-        // The unit's place, so that a wrong one is one error for the whole bracket.
-        self.expect_dimension(value, unit.span, expected)
+        let number = match unit {
+            None => self.expect_dimension(value, expr.span, expected)?,
+            Some(unit) => {
+                let value = self.with_unit(value, unit, expr.span)?;
+                // The unit's place, so that a wrong one is one error for the whole bracket.
+                self.expect_dimension(value, unit.span, expected)?
+            }
+        };
+        self.note_place(expr.span, &number, expected);
+        Ok(number)
     }
 
     /// The number of a value whose dimension fits its place.

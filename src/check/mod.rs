@@ -9,6 +9,7 @@ mod connectivity;
 mod constants;
 mod dynamics;
 mod expression;
+mod facts;
 mod families;
 mod formulas;
 mod functions;
@@ -29,6 +30,7 @@ mod uncertain;
 mod vacuity;
 mod windows;
 
+pub use facts::{Facts, Known, Members, Quantity, Steps, Values, check_with_facts};
 pub use shapes::dimension;
 
 use std::collections::BTreeMap;
@@ -109,6 +111,8 @@ struct Checker<'a> {
     goals: Vec<typed::Goal>,
     /// How many errors and warnings there were.
     said: usize,
+    /// What is noted for those who ask for [`Facts`].
+    notes: Option<Box<facts::Notes>>,
 }
 
 impl<'a> Checker<'a> {
@@ -133,6 +137,7 @@ impl<'a> Checker<'a> {
             overgrown: None,
             goals: Vec::new(),
             said: 0,
+            notes: None,
         }
     }
 

@@ -37,7 +37,11 @@ impl Checker<'_> {
         }
         let short = |number: &Rational| number.to_i64().filter(|n| *n <= MAX_STEPS);
         match (short(&m), short(&n)) {
-            (Some(m), Some(n)) => Ok((m as u32, n as u32)),
+            (Some(m), Some(n)) => {
+                let steps = (m as u32, n as u32);
+                self.note_steps(window.span, steps);
+                Ok(steps)
+            }
             _ => Err(self.report(messages::long_window(window.span, MAX_STEPS))),
         }
     }
