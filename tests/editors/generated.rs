@@ -37,12 +37,30 @@ struct Target {
 /// `(?:a|b)` in a regular expression in JSON.
 const JSON_REGEX: Style = Style { open: "(?:", close: ")", item: json_regex, separator: "|", indent: None };
 
+/// `["a", "b"]` in JavaScript.
+const JS_ARRAY: Style = Style { open: "[", close: "]", item: quoted, separator: ", ", indent: Some("  ") };
+
+/// `[] = {"a", "b"}` in C.
+const C_ARRAY: Style = Style { open: "{", close: "}", item: quoted, separator: ", ", indent: Some("  ") };
+
+/// `["a" "b"]` in a query of tree-sitter.
+const QUERY: Style = Style { open: "[", close: "]", item: quoted, separator: " ", indent: Some("  ") };
+
 /// The files with lists. Add a line for another one.
-const TARGETS: [Target; 1] =
-    [Target { file: "editors/vscode/syntaxes/dosm.tmLanguage.json", style: JSON_REGEX, complete: true }];
+const TARGETS: [Target; 4] = [
+    Target { file: "editors/vscode/syntaxes/dosm.tmLanguage.json", style: JSON_REGEX, complete: true },
+    Target { file: "editors/tree-sitter/grammar.js", style: JS_ARRAY, complete: false },
+    Target { file: "editors/tree-sitter/src/words.h", style: C_ARRAY, complete: false },
+    Target { file: "editors/tree-sitter/queries/highlights.scm", style: QUERY, complete: false },
+];
 
 /// The longest line that a list with several lines has.
 const WIDTH: usize = 100;
+
+/// A word as a string.
+fn quoted(word: &str) -> String {
+    format!("\"{word}\"")
+}
 
 /// A word in a regular expression.
 fn regex(word: &str) -> String {

@@ -6,3 +6,4 @@
 mod common;
 
 mod generated;
+mod tree_sitter;

@@ -1,0 +1,135 @@
+//! The queries: they fit the grammar, and capture what they should.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{language, missions, parse};
+use tree_sitter::{Query, QueryCursor, StreamingIterator};
+
+/// A query of this package.
+fn query(name: &str) -> Query {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("queries").join(name);
+    let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    Query::new(&language(), &text).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// What is captured, in the order of the text: where from, where to, as what.
+fn captures(query: &Query, text: &[u8]) -> Vec<(usize, usize, String)> {
+    let tree = parse(text);
+    let mut cursor = QueryCursor::new();
+    let mut found = Vec::new();
+    let mut matches = cursor.matches(query, tree.root_node(), text);
+    while let Some(one) = matches.next() {
+        for capture in one.captures() {
+            let name = query.capture_names()[capture.index as usize].to_owned();
+            found.push((capture.node.start_byte(), capture.node.end_byte(), name));
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn all_fit_the_grammar() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("queries");
+    let mut count = 0;
+    for entry in fs::read_dir(directory).expect("the queries") {
+        query(&entry.expect("an entry").file_name().to_string_lossy());
+        count += 1;
+    }
+    assert!(count >= 6, "only {count}");
+}
+
+/// Places in the missions, with what is captured there: the text of the token, how many such tokens come before
+/// it, the capture.
+const PLACES: [(&str, &[(&str, usize, &str)]); 2] = [
+    ("examples/relay.dosm", &[("dosm", 0, "keyword"), ("1", 0, "number"), ("relay", 0, "module")]),
+    (
+        "tests/missions/parse/everything.dosm",
+        &[
+            ("//! Every construct of the language, edition 1.", 0, "comment.documentation"),
+            ("/* Comments /* nest */ and are skipped. */", 0, "comment"),
+            ("//// Four slashes make a plain comment.", 0, "comment"),
+            ("/// A union of pieces.", 0, "comment.documentation"),
+            ("radius", 0, "constant"),
+            ("radius", 1, "keyword"),
+            ("min", 0, "type.builtin"),
+            ("min", 1, "function.builtin"),
+            ("max", 0, "function.builtin"),
+            ("pi", 0, "constant.builtin"),
+            ("m/s", 0, "type.builtin"),
+            ("opaque", 0, "keyword.modifier"),
+            ("box", 0, "constructor"),
+            ("where", 0, "constructor"),
+            ("where", 1, "constructor"),
+            ("depot", 0, "variable"),
+            ("i", 0, "variable.parameter"),
+            ("Rover", 0, "type.definition"),
+            ("Rover", 1, "type"),
+            ("px", 0, "variable.member"),
+            ("px", 1, "variable.member"),
+            ("step", 0, "keyword"),
+            ("continuous", 0, "keyword"),
+            ("A", 0, "property"),
+            ("dry", 0, "label"),
+            ("in", 0, "keyword.operator"),
+            ("all", 0, "constant.builtin"),
+            ("count", 0, "function.builtin"),
+            ("busy", 0, "function"),
+            ("busy", 1, "function.call"),
+            ("true", 0, "boolean"),
+            ("G", 0, "keyword.operator"),
+            ("[]", 0, "operator"),
+            ("±", 0, "operator"),
+            ("effort", 0, "constant.builtin"),
+            ("norm", 0, "keyword"),
+        ],
+    ),
+];
+
+#[test]
+fn tokens_are_what_they_should_be() {
+    let query = query("highlights.scm");
+    for (path, places) in PLACES {
+        let text = fs::read(common::root().join(path)).expect("a mission");
+        let found = captures(&query, &text);
+        for (token, before, name) in places {
+            let same: Vec<_> = found.iter().filter(|(a, b, _)| &text[*a..*b] == token.as_bytes()).collect();
+            let there = same.get(*before).map(|(.., name)| name.as_str());
+            assert_eq!(there, Some(*name), "{path}: `{token}` number {before}");
+        }
+    }
+}
+
+#[test]
+fn every_token_is_captured_once() {
+    let query = query("highlights.scm");
+    for mission in missions().iter().filter(|m| m.is_accepted()) {
+        let found = captures(&query, &mission.bytes);
+        for pair in found.windows(2) {
+            assert!(pair[0].1 <= pair[1].0, "{}: {:?} and {:?}", mission.path, pair[0], pair[1]);
+        }
+        // All but blanks.
+        let mut rest = mission.bytes.clone();
+        for (start, end, _) in found {
+            rest[start..end].fill(b' ');
+        }
+        let rest = String::from_utf8_lossy(&rest).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(rest, "", "{}", mission.path);
+    }
+}
+
+#[test]
+fn declarations_are_tagged() {
+    let text = b"dosm 1 mission a region b = box (0, 0) .. (1, 1) dynamics C { } goal d: R1 in b";
+    let found = captures(&query("tags.scm"), text);
+    let of = |wanted: &str| {
+        let names = found.iter().filter(|(.., name)| name == wanted);
+        names.map(|(a, b, _)| String::from_utf8_lossy(&text[*a..*b])).collect::<Vec<_>>()
+    };
+    assert_eq!(of("name"), ["a", "b", "C", "d", "R1", "b"]);
+    assert_eq!(of("definition.class"), ["dynamics C { }"]);
+    assert_eq!(of("reference.variable"), ["R1", "b"]);
+}
