@@ -26,6 +26,7 @@ mod number;
 mod reader;
 mod scan;
 mod shape;
+pub mod token;
 pub mod words;
 
 pub use dump::dump;

@@ -1,7 +1,7 @@
 //! What has to change in a text to bring it into the style, gap by gap between its tokens.
 
-use super::token::{Token, tokens};
 use crate::source::Span;
+use crate::syntax::token::{Token, tokens};
 
 /// The edits that make one text of another which differs from it in blanks; they do not touch one another,
 /// and stand in the order of the text.

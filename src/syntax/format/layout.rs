@@ -2,9 +2,9 @@
 
 use super::sheet::{Cells, Line, Sheet, width};
 use super::spacing::{is_spaced, join};
-use super::token::{Kind, Token};
 use crate::source::Span;
 use crate::syntax::ast::{Connectivity, DynamicsItem, DynamicsKind, Item, ItemKind};
+use crate::syntax::token::{Kind, Token};
 
 /// The longest line that declarations are put on when their author broke them.
 const WIDTH: usize = 100;

@@ -12,15 +12,14 @@ mod sheet;
 mod spacing;
 #[cfg(test)]
 mod tests;
-mod token;
 
 use super::ast::{File, Item};
 use super::{dump, parse};
 use crate::diag::{Diagnostics, Reported, Severity};
 use crate::source::{SourceFile, Span};
 
+use super::token::{Token, tokens};
 use layout::Layout;
-use token::{Token, tokens};
 
 /// A formatted mission.
 #[derive(Clone, Debug, PartialEq, Eq)]

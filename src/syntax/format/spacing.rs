@@ -1,6 +1,6 @@
 //! What stands between two tokens of a line: one blank or none.
 
-use super::token::{Kind, Token};
+use crate::syntax::token::{Kind, Token};
 use crate::syntax::words::PREDECLARED;
 
 /// The tokens of a line, joined as the style has it.
@@ -79,8 +79,8 @@ fn is_unary(tokens: &[Token<'_>], minus: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::token::tokens;
     use super::*;
+    use crate::syntax::token::tokens;
 
     #[test]
     fn blanks_stand_where_they_help() {

@@ -8,8 +8,8 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 
-use super::token::Kind;
 use super::*;
+use crate::syntax::token::Kind;
 
 /// A text in the style; it has to be stable.
 fn formatted(text: &str) -> String {

@@ -1,10 +1,10 @@
-//! The tokens of a text, comments included: what a formatter lays out again.
+//! The tokens of a text, comments included: what a formatter lays out again and an editor colours.
 
 use crate::syntax::words::{LONG_SIGNS, UNITS};
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// A name or a keyword.
     Word,
     /// A number, without sign.
@@ -23,34 +23,35 @@ pub(super) enum Kind {
 
 /// A token and what stood before it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Token<'s> {
-    pub(super) kind: Kind,
+pub struct Token<'s> {
+    /// What it is.
+    pub kind: Kind,
     /// As written; comments without blanks at their end.
-    pub(super) text: &'s str,
+    pub text: &'s str,
     /// Where it begins.
-    pub(super) start: usize,
+    pub start: usize,
     /// One past its last byte.
-    pub(super) end: usize,
+    pub end: usize,
     /// How many line ends stand between it and the token before.
-    pub(super) lines_before: usize,
+    pub lines_before: usize,
     /// Whether blanks or line ends stand between them.
-    pub(super) blank_before: bool,
+    pub blank_before: bool,
 }
 
 impl Token<'_> {
     /// Whether it is this sign or word.
-    pub(super) fn is(&self, text: &str) -> bool {
+    pub fn is(&self, text: &str) -> bool {
         matches!(self.kind, Kind::Sign | Kind::Word) && self.text == text
     }
 
     /// Whether it is a comment of any kind.
-    pub(super) fn is_comment(&self) -> bool {
+    pub fn is_comment(&self) -> bool {
         matches!(self.kind, Kind::LineComment | Kind::Doc | Kind::BlockComment)
     }
 }
 
 /// All tokens of a text. Whatever a mission can't hold comes as a sign of one character.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token<'_>> = Vec::new();
     let mut position = 0;
     while let Some(begin) = text[position..].find(|c: char| !c.is_whitespace()).map(|at| position + at) {
