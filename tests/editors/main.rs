@@ -6,4 +6,6 @@
 mod common;
 
 mod generated;
+mod tools;
 mod tree_sitter;
+mod vscode;

@@ -54,7 +54,8 @@ fn is_parsed(path: &Path) -> bool {
 
 #[test]
 fn the_names_of_missions_say_whether_they_can_be_parsed() {
-    let stages = ["ok", "err", "parse", "solve", "unsat", "field"].map(|stage| format!("tests/missions/{stage}"));
+    let stages =
+        ["ok", "err", "parse", "solve", "unsat", "field"].map(|stage| format!("tests/missions/{stage}"));
     let directories = ["examples", "examples/paper"].map(str::to_owned).into_iter().chain(stages);
     for path in directories.flat_map(|directory| missions(&directory)) {
         let broken = path.file_name().expect("a file").to_string_lossy().starts_with("syntax_");
