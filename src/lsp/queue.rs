@@ -21,28 +21,19 @@ pub struct Job {
     pub documents: Arc<Documents>,
 }
 
-/// How far a mission is to be looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Depth {
-    /// Reading and checking: fast enough for every keystroke.
-    Front,
-    /// Tubes, too.
-    Whole,
-}
-
 /// Something for the worker to do.
 pub enum Task {
     /// A request to answer.
     Answer(Job),
     /// A mission to look at, in whatever state it is then.
-    Look(Uri, Depth),
+    Look(Uri),
 }
 
 #[derive(Default)]
 struct Waiting {
     requests: VecDeque<Job>,
     /// Each mission at most once.
-    looks: VecDeque<(Uri, Depth)>,
+    looks: VecDeque<Uri>,
     closed: bool,
 }
 
@@ -63,23 +54,14 @@ impl Queue {
     /// Has a mission looked at; a look at it that is waiting is dropped, as it would see the same.
     pub fn look(&self, uri: Uri) {
         let mut waiting = lock(&self.waiting);
-        waiting.looks.retain(|(other, _)| *other != uri);
-        waiting.looks.push_back((uri, Depth::Front));
+        waiting.looks.retain(|other| *other != uri);
+        waiting.looks.push_back(uri);
         self.changed.notify_one();
-    }
-
-    /// Has a mission looked at further, unless it has changed: then it is looked at anew anyway.
-    pub fn look_further(&self, uri: Uri) {
-        let mut waiting = lock(&self.waiting);
-        if waiting.looks.iter().all(|(other, _)| *other != uri) {
-            waiting.looks.push_back((uri, Depth::Whole));
-            self.changed.notify_one();
-        }
     }
 
     /// Whether a look at a mission waits: then it has changed.
     pub fn awaits_look(&self, uri: &Uri) -> bool {
-        lock(&self.waiting).looks.iter().any(|(other, _)| other == uri)
+        lock(&self.waiting).looks.contains(uri)
     }
 
     /// Ends the worker when it has answered what is asked.
@@ -98,8 +80,8 @@ impl Queue {
             if waiting.closed {
                 return None;
             }
-            if let Some((uri, depth)) = waiting.looks.pop_front() {
-                return Some(Task::Look(uri, depth));
+            if let Some(uri) = waiting.looks.pop_front() {
+                return Some(Task::Look(uri));
             }
             waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner);
         }
@@ -120,8 +102,6 @@ mod tests {
         queue.look(uri("a"));
         queue.look(uri("b"));
         queue.look(uri("a"));
-        queue.look_further(uri("b"));
-        queue.look_further(uri("c"));
         let documents = Arc::default();
         queue.ask(Job { id: 1.into(), method: "m".into(), params: Value::Null, documents });
         let mut said = Vec::new();
@@ -130,16 +110,16 @@ mod tests {
         while let Some(task) = queue.next() {
             said.push(match task {
                 Task::Answer(job) => job.method,
-                Task::Look(uri, depth) => format!("{} {depth:?}", uri.as_str()),
+                Task::Look(uri) => uri.as_str().to_string(),
             });
         }
         assert_eq!(said, ["m"]);
         lock(&queue.waiting).closed = false;
         assert!(queue.awaits_look(&uri("b")) && !queue.awaits_look(&uri("d")));
-        let order = [queue.next(), queue.next(), queue.next()].map(|task| match task {
-            Some(Task::Look(uri, depth)) => format!("{} {depth:?}", uri.as_str()),
+        let order = [queue.next(), queue.next()].map(|task| match task {
+            Some(Task::Look(uri)) => uri.as_str().to_string(),
             _ => "none".into(),
         });
-        assert_eq!(order, ["file:///b Front", "file:///a Front", "file:///c Whole"]);
+        assert_eq!(order, ["file:///b", "file:///a"]);
     }
 }

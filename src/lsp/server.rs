@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::document::Document;
-use super::queue::{Depth, Job, Queue, Task};
+use super::queue::{Job, Queue, Task};
 use super::session::{Client, Session, refusal};
 use super::wire::{self, Arrival};
 use super::{Host, capabilities, commands, requests};
@@ -211,33 +211,19 @@ fn work(session: &Session, queue: &Queue) {
                 session.answer(id, answer.unwrap_or_else(failed));
             }
             Task::Answer(_) => {}
-            Task::Look(uri, depth) => {
+            Task::Look(uri) => {
                 if let Some(document) = session.document(&uri) {
-                    let _ = panic::catch_unwind(AssertUnwindSafe(|| look(session, queue, &document, depth)));
+                    let _ = panic::catch_unwind(AssertUnwindSafe(|| look(session, queue, &document)));
                 }
             }
         }
     }
 }
 
-/// Looks at a mission and publishes what is wrong with it.
-///
-/// Where reading and checking find no errors, tubes are looked at in a second task, so that requests come
-/// between. What was found before stays until then, lest messages about tubes come and go at each keystroke;
-/// errors that are gone go at once.
-fn look(session: &Session, queue: &Queue, document: &Document, depth: Depth) {
-    if depth == Depth::Whole {
-        document.whole();
-        return session.publish(document);
-    }
-    let is_wrong = document.front().meaning.is_none();
-    if queue.awaits_look(&document.uri) {
-        return;
-    }
-    if session.was_wrong(document, is_wrong) || is_wrong {
+/// Looks at a mission and publishes what is wrong with it, once for each text that stands for a while.
+fn look(session: &Session, queue: &Queue, document: &Document) {
+    document.whole();
+    if !queue.awaits_look(&document.uri) {
         session.publish(document);
-    }
-    if !is_wrong {
-        queue.look_further(document.uri.clone());
     }
 }

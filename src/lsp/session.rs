@@ -72,8 +72,6 @@ pub struct Session {
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
     pending: Mutex<BTreeSet<RequestId>>,
-    /// The missions that could not be read or checked when they were last looked at.
-    wrong: Mutex<BTreeSet<String>>,
     requests: AtomicI32,
 }
 
@@ -93,7 +91,6 @@ impl Session {
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),
-            wrong: Mutex::default(),
             requests: AtomicI32::new(0),
         }
     }
@@ -117,16 +114,6 @@ impl Session {
     /// Closes a mission.
     pub fn close(&self, uri: &Uri) {
         Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str());
-    }
-
-    /// Notes whether a mission has errors, and tells whether it had any before.
-    pub fn was_wrong(&self, document: &Document, is_wrong: bool) -> bool {
-        let (mut wrong, key) = (lock(&self.wrong), document.uri.as_str());
-        let was = wrong.remove(key);
-        if is_wrong {
-            wrong.insert(key.to_string());
-        }
-        was
     }
 
     /// Notes that a request has come; false if there is one of its id.

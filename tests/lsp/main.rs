@@ -1,0 +1,8 @@
+//! The language server over its standard input and output, spoken to by a scripted client.
+
+#![allow(clippy::disallowed_methods, reason = "reads what the server wrote")]
+
+mod client;
+mod life;
+mod plan;
+mod texts;
