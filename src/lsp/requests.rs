@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::document::Document;
 use super::queue::Job;
 use super::session::{Session, refusal};
-use super::{formatting, lens};
+use super::{formatting, lens, navigation, rename};
 
 /// The answer to a request.
 ///
@@ -41,8 +41,40 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
         request::CodeLensRequest::METHOD => {
             about!(request::CodeLensRequest, |p| p.text_document, |d| Some(lens::lenses(&d, session)))
         }
+        request::GotoDefinition::METHOD => {
+            about!(request::GotoDefinition, |p| p.text_document_position_params.text_document, |d| {
+                navigation::definition(&d, p.text_document_position_params.position)
+            })
+        }
+        request::GotoTypeDefinition::METHOD => {
+            about!(request::GotoTypeDefinition, |p| p.text_document_position_params.text_document, |d| {
+                navigation::type_definition(&d, p.text_document_position_params.position)
+            })
+        }
+        request::References::METHOD => {
+            about!(request::References, |p| p.text_document_position.text_document, |d| {
+                let position = p.text_document_position.position;
+                navigation::references(&d, position, p.context.include_declaration)
+            })
+        }
+        request::PrepareRenameRequest::METHOD => {
+            about!(request::PrepareRenameRequest, |p| p.text_document, |d| {
+                Some(rename::prepare(&d, p.position).map_err(failed)?)
+            })
+        }
+        request::Rename::METHOD => {
+            about!(request::Rename, |p| p.text_document_position.text_document, |d| {
+                let position = p.text_document_position.position;
+                Some(rename::rename(&d, position, &p.new_name).map_err(failed)?)
+            })
+        }
         _ => Err(refusal(ErrorCode::MethodNotFound, format!("`{method}` is not known here"))),
     }
+}
+
+/// The answer to what can't be done, with the reason for people.
+fn failed(why: String) -> ResponseError {
+    refusal(ErrorCode::RequestFailed, why)
 }
 
 /// Reads a request's parameters, and makes its answer a value.

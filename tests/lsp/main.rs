@@ -4,5 +4,6 @@
 
 mod client;
 mod life;
+mod names;
 mod plan;
 mod texts;
