@@ -168,19 +168,20 @@ Exit status:
 Where to go next:
   docs/schemas describes the JSON files; `dosmc solve NAME.smc.json` plans from an instance.";
 
-/// `fmt`.
+/// `lsp`.
 pub const LSP: &str = "\
-Editors start this by themselves; docs/editors says how to set each up. `--set` and `--horizon` hold
-for all missions of the session. The command `dosmc.solve` plans a mission and writes what `dosmc
-solve` writes, and plan.html, into out/NAME beside it.
+Editors start this by themselves; docs/editors says how to set each up. `--set` and
+`--horizon` hold for all missions of the session. The command `dosmc.solve` plans a mission
+and writes what `dosmc solve` writes, and plan.html, into out/NAME beside it.
 
 Examples:
   dosmc lsp < /dev/null
 
 Exit status:
-  0  ended as the protocol asks
+  0  the session ended as the protocol asks, or never began
   1  the client went away, or ended the session without `shutdown`";
 
+/// `fmt`.
 pub const FMT: &str = "\
 One declaration and one item a line, blanks where they help, tables in columns, neighbours'
 intervals, units and comments under each other. Comments stay where they belong, and so do

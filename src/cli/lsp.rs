@@ -38,6 +38,7 @@ pub fn lsp(overrides: &Overrides, output: &Output) -> Status {
             let _ = writer.join();
             Status::Done
         }
+        Ending::Unused => Status::Done,
         Ending::Abrupt => {
             output.note("the client ended the session without `shutdown`");
             Status::Usage

@@ -36,6 +36,8 @@ pub enum Ending {
     Orderly,
     /// Without `shutdown`.
     Abrupt,
+    /// Before anything was said: there was no client.
+    Unused,
 }
 
 /// Serves a client until it says `exit` or goes away.
@@ -45,7 +47,10 @@ pub fn serve(
     overrides: &Overrides,
     host: &Arc<dyn Host>,
 ) -> Ending {
-    let Some(client) = handshake(incoming, outgoing) else { return Ending::Abrupt };
+    let client = match handshake(incoming, outgoing) {
+        Ok(client) => client,
+        Err(ending) => return ending,
+    };
     let session = Arc::new(Session::new(client, overrides.clone(), Arc::clone(host), outgoing.clone()));
     let queue = Arc::new(Queue::default());
     let worker = {
@@ -64,13 +69,16 @@ pub fn serve(
     ending
 }
 
-/// Waits for `initialize` and answers it; all other requests are refused until then.
-fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Option<Client> {
+/// Waits for `initialize` and answers it; all other requests are refused until then. Where it does not come,
+/// gives how the session ended.
+fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Result<Client, Ending> {
     let answer = |id, response_result| {
         let _ = outgoing.send(wire::encode(&Message::Response(Response { id, response_result })));
     };
-    loop {
-        match incoming.recv().ok()? {
+    let mut end = Ending::Unused;
+    for arrival in incoming {
+        end = Ending::Abrupt;
+        match arrival {
             Arrival::Message(Message::Request(Request { id, method, params })) => {
                 if method != request::Initialize::METHOD {
                     let why = "the session has not begun: `initialize` comes first";
@@ -81,13 +89,13 @@ fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Option<C
                     Ok(params) => {
                         let client = Client::new(&params.capabilities);
                         answer(id, Ok(capabilities::answer(client)));
-                        return Some(client);
+                        return Ok(client);
                     }
                     Err(error) => answer(id, Err(refusal(ErrorCode::InvalidParams, error.to_string()))),
                 }
             }
             Arrival::Message(Message::Notification(n)) if n.method == notification::Exit::METHOD => {
-                return None;
+                break;
             }
             Arrival::Message(_) => {}
             Arrival::Malformed(malformed) => {
@@ -95,6 +103,7 @@ fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Option<C
             }
         }
     }
+    Err(end)
 }
 
 /// The loop's state.
