@@ -194,6 +194,7 @@ impl Server {
 
     fn close(&self, DidCloseTextDocumentParams { text_document: id }: DidCloseTextDocumentParams) {
         self.session.close(&id.uri);
+        self.session.runs.close(id.uri.as_str());
         let (uri, diagnostics) = (id.uri, Vec::new());
         let nothing = PublishDiagnosticsParams { uri, diagnostics, version: None };
         self.session.notify::<notification::PublishDiagnostics>(nothing);

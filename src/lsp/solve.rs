@@ -97,6 +97,14 @@ impl Runs {
         self.running(|run| run.request == *id);
     }
 
+    /// Stops the run of a mission that was closed, and forgets what came of earlier ones.
+    pub fn close(&self, uri: &str) {
+        self.running(|run| run.document.uri.as_str() == uri);
+        if let Some(record) = lock(&self.records).get_mut(uri) {
+            record.last = None;
+        }
+    }
+
     /// Stops all runs.
     pub fn stop_all(&self) {
         self.running(|_| true);

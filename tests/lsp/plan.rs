@@ -104,6 +104,12 @@ fn a_run_can_be_stopped_and_there_is_one_at_a_time() {
     let answer = client.answer(id);
     assert_eq!(answer["result"]["status"], "unknown", "{answer}");
     assert_eq!(titles(&mut client, uri).len(), 2);
+    // Who closes the mission wants no plan of it any more.
+    let id = client.request("workspace/executeCommand", solve(uri));
+    client.tell("textDocument/didClose", json!({ "textDocument": { "uri": uri } }));
+    assert_eq!(client.answer(id)["result"]["status"], "unknown");
+    client.open(uri, LONG);
+    client.diagnostics(uri);
     // The request can be cancelled, too, and a session can end while a run goes on.
     let id = client.request("workspace/executeCommand", solve(uri));
     client.tell("$/cancelRequest", json!({ "id": id }));
