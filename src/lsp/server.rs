@@ -14,7 +14,7 @@ use lsp_types::notification::{self, Notification as _};
 use lsp_types::request::{self, Request as _};
 use lsp_types::{
     CancelParams, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    InitializeParams, NumberOrString, PublishDiagnosticsParams, WorkDoneProgressCancelParams,
+    InitializeParams, NumberOrString, WorkDoneProgressCancelParams,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -193,11 +193,7 @@ impl Server {
     }
 
     fn close(&self, DidCloseTextDocumentParams { text_document: id }: DidCloseTextDocumentParams) {
-        self.session.close(&id.uri);
-        self.session.runs.close(id.uri.as_str());
-        let (uri, diagnostics) = (id.uri, Vec::new());
-        let nothing = PublishDiagnosticsParams { uri, diagnostics, version: None };
-        self.session.notify::<notification::PublishDiagnostics>(nothing);
+        self.session.close(id.uri);
     }
 }
 

@@ -7,7 +7,8 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
-use lsp_types::{ClientCapabilities, Uri};
+use lsp_types::notification::PublishDiagnostics;
+use lsp_types::{ClientCapabilities, PublishDiagnosticsParams, Uri};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -72,6 +73,8 @@ pub struct Session {
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
     pending: Mutex<BTreeSet<RequestId>>,
+    /// Held by who publishes.
+    publishing: Mutex<()>,
     requests: AtomicI32,
 }
 
@@ -91,6 +94,7 @@ impl Session {
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),
+            publishing: Mutex::default(),
             requests: AtomicI32::new(0),
         }
     }
@@ -111,9 +115,16 @@ impl Session {
         Arc::make_mut(&mut lock(&self.documents)).insert(key, Arc::new(document));
     }
 
-    /// Closes a mission.
-    pub fn close(&self, uri: &Uri) {
+    /// Closes a mission: nothing is wrong with it any more, and nobody wants a plan of it.
+    pub fn close(&self, uri: Uri) {
+        let _order = lock(&self.publishing);
         Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str());
+        self.runs.close(uri.as_str());
+        self.notify::<PublishDiagnostics>(PublishDiagnosticsParams {
+            uri,
+            diagnostics: Vec::new(),
+            version: None,
+        });
     }
 
     /// Notes that a request has come; false if there is one of its id.
@@ -157,10 +168,16 @@ impl Session {
         self.send(&Message::Request(Request { id, method: R::METHOD.into(), params }));
     }
 
-    /// Publishes what is known to be wrong with a mission, with what came of planning it.
+    /// Publishes what is known to be wrong with a mission, with what came of planning it, unless it has
+    /// changed meanwhile: then it is looked at again, and what is said of a later text must come last.
     pub fn publish(&self, document: &Document) {
+        document.whole();
+        let _order = lock(&self.publishing);
+        if self.document(&document.uri).is_none_or(|now| now.version != document.version) {
+            return;
+        }
         let outcome = self.runs.outcome(document);
-        self.notify::<lsp_types::notification::PublishDiagnostics>(lsp_types::PublishDiagnosticsParams {
+        self.notify::<PublishDiagnostics>(PublishDiagnosticsParams {
             uri: document.uri.clone(),
             diagnostics: diagnostics::all(document, outcome.as_ref(), self),
             version: Some(document.version),
