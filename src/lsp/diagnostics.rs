@@ -26,11 +26,6 @@ fn one(document: &Document, diagnostic: &diag::Diagnostic, session: &Session) ->
         Some((first, others)) => (first.clone(), others),
         None => (Label { span: lens::place(document), text: String::new() }, &[][..]),
     };
-    let mut message = sentence(&diagnostic.message, &first.text);
-    if let Some(help) = &diagnostic.help {
-        message.push_str("\nhelp: ");
-        message.push_str(help);
-    }
     Diagnostic {
         range: document.range(first.span),
         severity: Some(match diagnostic.severity {
@@ -40,20 +35,20 @@ fn one(document: &Document, diagnostic: &diag::Diagnostic, session: &Session) ->
         code: Some(NumberOrString::String(diagnostic.code.into())),
         code_description: description(diagnostic.code, session),
         source: Some(SOURCE.into()),
-        message,
+        message: message(diagnostic, &first.text),
         related_information: related(document, others),
         tags: (diagnostic.code == "dosm::check::unused").then(|| vec![DiagnosticTag::UNNECESSARY]),
         data: None,
     }
 }
 
-/// The message with what is said about its place, where that says more.
-fn sentence(message: &str, label: &str) -> String {
-    if label.is_empty() || message.contains(label) {
-        message.to_string()
-    } else {
-        format!("{message}: {label}")
-    }
+/// The message, what is said about its place where that says more, and the mend.
+fn message(diagnostic: &diag::Diagnostic, label: &str) -> String {
+    let says_more = !label.is_empty() && !diagnostic.message.contains(label);
+    let here = says_more.then(|| format!("here: {label}"));
+    let help = diagnostic.help.as_ref().map(|help| format!("help: {help}"));
+    let lines = [Some(diagnostic.message.clone()), here, help];
+    lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 
 /// The link behind a code: to its explanation.

@@ -37,6 +37,8 @@ fn a_code_links_to_its_explanation_and_others_places_are_named() {
     client.open(URI, text);
     let diagnostics = client.diagnostics(URI);
     let duplicate = diagnostics.iter().find(|d| d["code"] == "dosm::check::duplicate").expect("it is said");
+    let message = "`a` is declared twice\nhere: again, as a region";
+    assert_eq!(duplicate["message"].as_str().map(|m| m.split("\nhelp").next()), Some(Some(message)));
     let related = &duplicate["relatedInformation"][0]["location"];
     assert_eq!(related["uri"], URI);
     assert_eq!(related["range"]["start"]["line"], 2);
