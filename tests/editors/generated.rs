@@ -46,8 +46,23 @@ const C_ARRAY: Style = Style { open: "{", close: "}", item: quoted, separator: "
 /// `["a" "b"]` in a query of tree-sitter.
 const QUERY: Style = Style { open: "[", close: "]", item: quoted, separator: " ", indent: Some("  ") };
 
+/// The words of `syn keyword` on lines of their own, with an empty line behind them.
+const VIM_KEYWORDS: Style =
+    Style { open: "\n  \\ ", close: "\n\n", item: str::to_owned, separator: " ", indent: Some("  \\ ") };
+
+/// `['a', 'b']` in Vim script, on lines of its own.
+const VIM_LIST: Style = Style {
+    open: "[\n  \\ ",
+    close: ",\n  \\ ]",
+    item: |word| format!("'{word}'"),
+    separator: ", ",
+    indent: Some("  \\ "),
+};
+
 /// The files with lists. Add a line for another one.
-const TARGETS: [Target; 4] = [
+const TARGETS: [Target; 6] = [
+    Target { file: "editors/vim/syntax/dosm.vim", style: VIM_KEYWORDS, complete: false },
+    Target { file: "editors/vim/indent/dosm.vim", style: VIM_LIST, complete: false },
     Target { file: "editors/vscode/syntaxes/dosm.tmLanguage.json", style: JSON_REGEX, complete: true },
     Target { file: "editors/tree-sitter/grammar.js", style: JS_ARRAY, complete: false },
     Target { file: "editors/tree-sitter/src/words.h", style: C_ARRAY, complete: false },

@@ -8,4 +8,5 @@ mod common;
 mod generated;
 mod tools;
 mod tree_sitter;
+mod vim;
 mod vscode;

@@ -1,0 +1,14 @@
+; What can be folded away.
+
+[
+  (dynamics_block)
+  (mode_block)
+  (connectivity_block)
+  (inequalities)
+  (full_state)
+  (table)
+  (union)
+  (block_comment)
+  (goal_declaration)
+  (define_declaration)
+] @fold
