@@ -1,13 +1,14 @@
 //! What the server offers, as it says when a session begins.
 
 use lsp_types::{
-    CodeLensOptions, ExecuteCommandOptions, HoverProviderCapability, InitializeResult, OneOf, RenameOptions,
+    CodeLensOptions, CompletionOptions, ExecuteCommandOptions, InitializeResult, OneOf, RenameOptions,
     ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
     TextDocumentSyncOptions, TypeDefinitionProviderCapability, WorkDoneProgressOptions,
 };
 use serde_json::Value;
 
 use super::commands::COMMANDS;
+use super::completion;
 use super::session::Client;
 
 /// The answer to `initialize`.
@@ -30,7 +31,6 @@ fn capabilities(client: Client) -> ServerCapabilities {
             change: Some(TextDocumentSyncKind::INCREMENTAL),
             ..TextDocumentSyncOptions::default()
         })),
-        hover_provider: Some(HoverProviderCapability::Simple(true)),
         definition_provider: Some(OneOf::Left(true)),
         type_definition_provider: Some(TypeDefinitionProviderCapability::Simple(true)),
         references_provider: Some(OneOf::Left(true)),
@@ -38,6 +38,10 @@ fn capabilities(client: Client) -> ServerCapabilities {
             prepare_provider: Some(true),
             work_done_progress_options: WorkDoneProgressOptions::default(),
         })),
+        completion_provider: Some(CompletionOptions {
+            trigger_characters: Some(completion::TRIGGERS.iter().map(|c| (*c).to_string()).collect()),
+            ..CompletionOptions::default()
+        }),
         document_formatting_provider: Some(OneOf::Left(true)),
         document_range_formatting_provider: Some(OneOf::Left(true)),
         code_lens_provider: Some(CodeLensOptions { resolve_provider: Some(false) }),

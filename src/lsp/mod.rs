@@ -11,23 +11,21 @@
 
 mod capabilities;
 mod commands;
+mod completion;
 mod diagnostics;
 mod document;
 mod formatting;
-pub mod hover;
 pub mod index;
 mod lens;
 mod lines;
 mod location;
 mod navigation;
-mod number;
 mod queue;
 mod rename;
 mod requests;
 mod server;
 mod session;
 mod solve;
-pub mod tubes;
 pub mod wire;
 
 use std::path::{Path, PathBuf};

@@ -15,7 +15,6 @@ use serde_json::Value;
 use super::document::Document;
 use super::lines::Encoding;
 use super::solve::Runs;
-use super::tubes::Tubes;
 use super::wire;
 use super::{Host, diagnostics};
 use crate::driver::Overrides;
@@ -36,6 +35,12 @@ pub struct Client {
     pub code_links: bool,
     /// Whether it asks again for lenses when told to.
     pub refresh_lenses: bool,
+    /// Whether a completion may have places to fill in.
+    pub snippets: bool,
+    /// Whether a completion may say how to insert and how to replace.
+    pub insert_replace: bool,
+    /// Whether what is said about a completion may be Markdown.
+    pub markdown_completion: bool,
 }
 
 impl Client {
@@ -44,6 +49,7 @@ impl Client {
         let general = capabilities.general.as_ref();
         let window = capabilities.window.as_ref();
         let text = capabilities.text_document.as_ref();
+        let item = text.and_then(|t| t.completion.as_ref()?.completion_item.as_ref());
         Client {
             encoding: Encoding::agree(general.and_then(|g| g.position_encodings.as_deref())),
             progress: window.and_then(|w| w.work_done_progress).unwrap_or(false),
@@ -56,6 +62,11 @@ impl Client {
                 .as_ref()
                 .and_then(|w| w.code_lens.as_ref()?.refresh_support)
                 .unwrap_or(false),
+            snippets: item.and_then(|i| i.snippet_support).unwrap_or(false),
+            insert_replace: item.and_then(|i| i.insert_replace_support).unwrap_or(false),
+            markdown_completion: item
+                .and_then(|i| i.documentation_format.as_ref())
+                .is_some_and(|formats| formats.contains(&lsp_types::MarkupKind::Markdown)),
         }
     }
 }
@@ -70,8 +81,6 @@ pub struct Session {
     pub host: Arc<dyn Host>,
     /// The runs of the planner.
     pub runs: Runs,
-    /// The tubes of single models.
-    pub tubes: Tubes,
     outgoing: Sender<Value>,
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
@@ -94,7 +103,6 @@ impl Session {
             overrides,
             host,
             runs: Runs::default(),
-            tubes: Tubes::default(),
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),
