@@ -278,6 +278,16 @@ impl Facts {
         self.some(&self.regions, item)
     }
 
+    /// A region by its place in the table.
+    pub fn region(&self, place: usize) -> Option<&typed::Region> {
+        self.regions.get(place)?.as_ref()
+    }
+
+    /// A robot by its place in the table.
+    pub fn robot(&self, place: usize) -> Option<&typed::Robot> {
+        self.robots.get(place)?.as_ref()
+    }
+
     /// The obstacles and jammers that are right, of an item or of all.
     pub fn blockers(&self, item: Option<usize>) -> impl Iterator<Item = (usize, &typed::Blocker)> {
         self.some(&self.blockers, item)

@@ -1,8 +1,8 @@
 //! What the server offers, as it says when a session begins.
 
 use lsp_types::{
-    CodeLensOptions, CompletionOptions, ExecuteCommandOptions, InitializeResult, OneOf, RenameOptions,
-    ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
+    CodeLensOptions, CompletionOptions, ExecuteCommandOptions, HoverProviderCapability, InitializeResult,
+    OneOf, RenameOptions, ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
     TextDocumentSyncOptions, TypeDefinitionProviderCapability, WorkDoneProgressOptions,
 };
 use serde_json::Value;
@@ -31,6 +31,7 @@ fn capabilities(client: Client) -> ServerCapabilities {
             change: Some(TextDocumentSyncKind::INCREMENTAL),
             ..TextDocumentSyncOptions::default()
         })),
+        hover_provider: Some(HoverProviderCapability::Simple(true)),
         definition_provider: Some(OneOf::Left(true)),
         type_definition_provider: Some(TypeDefinitionProviderCapability::Simple(true)),
         references_provider: Some(OneOf::Left(true)),

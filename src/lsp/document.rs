@@ -7,9 +7,11 @@ use lsp_types::{Position, Range, TextDocumentContentChangeEvent, Uri};
 use super::index::Index;
 use super::lines::{Encoding, Lines};
 use super::location;
+use crate::check::{Facts, check_with_facts};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::driver::{self, Mission, Overrides};
 use crate::ir::{Problem, Spans};
+use crate::law::Float;
 use crate::source::{SourceFile, Span};
 use crate::syntax::{self, ast};
 
@@ -25,6 +27,7 @@ pub struct Document {
     pub lines: Lines,
     overrides: Overrides,
     index: OnceLock<Index>,
+    facts: OnceLock<Option<Facts>>,
     front: OnceLock<Front>,
     whole: OnceLock<Whole>,
 }
@@ -52,8 +55,9 @@ impl Document {
     pub fn new(uri: Uri, version: i32, text: String, encoding: Encoding, overrides: Overrides) -> Document {
         let lines = Lines::new(&text, encoding);
         let source = SourceFile::new(location::name(&uri), text);
-        let (index, front, whole) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Document { uri, version, source, lines, overrides, index, front, whole }
+        let (index, facts) = (OnceLock::new(), OnceLock::new());
+        let (front, whole) = (OnceLock::new(), OnceLock::new());
+        Document { uri, version, source, lines, overrides, index, facts, front, whole }
     }
 
     /// The mission after some changes, made one after the other.
@@ -117,6 +121,20 @@ impl Document {
     pub fn index(&self) -> &Index {
         let read = |file| Index::with_text(file, &self.source.text);
         self.index.get_or_init(|| self.file().map(read).unwrap_or_default())
+    }
+
+    /// What the check found out, also where the mission has errors; `None` where nothing can be read.
+    pub fn facts(&self) -> Option<&Facts> {
+        let check = |file| {
+            let mut unheard = Diagnostics::new();
+            check_with_facts(file, &self.source, &self.overrides.set, &mut unheard).1
+        };
+        self.facts.get_or_init(|| self.file().map(check)).as_ref()
+    }
+
+    /// What the robots' controllers compute with.
+    pub fn float(&self) -> Float {
+        self.overrides.float
     }
 
     /// The byte offset of a position.

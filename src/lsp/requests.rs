@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::document::Document;
 use super::queue::Job;
 use super::session::{Session, refusal};
-use super::{completion, formatting, lens, navigation, rename};
+use super::{completion, formatting, hover, lens, navigation, rename};
 
 /// The answer to a request.
 ///
@@ -72,6 +72,11 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
             about!(request::Rename, |p| p.text_document_position.text_document, |d| {
                 let position = p.text_document_position.position;
                 Some(rename::rename(&d, position, &p.new_name).map_err(failed)?)
+            })
+        }
+        request::HoverRequest::METHOD => {
+            about!(request::HoverRequest, |p| p.text_document_position_params.text_document, |d| {
+                hover::hover(&d, p.text_document_position_params.position, &session.tubes)
             })
         }
         _ => Err(refusal(ErrorCode::MethodNotFound, format!("`{method}` is not known here"))),

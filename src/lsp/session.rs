@@ -15,6 +15,7 @@ use serde_json::Value;
 use super::document::Document;
 use super::lines::Encoding;
 use super::solve::Runs;
+use super::tubes::Tubes;
 use super::wire;
 use super::{Host, diagnostics};
 use crate::driver::Overrides;
@@ -81,6 +82,8 @@ pub struct Session {
     pub host: Arc<dyn Host>,
     /// The runs of the planner.
     pub runs: Runs,
+    /// The tubes of single models.
+    pub tubes: Tubes,
     outgoing: Sender<Value>,
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
@@ -103,6 +106,7 @@ impl Session {
             overrides,
             host,
             runs: Runs::default(),
+            tubes: Tubes::default(),
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),

@@ -20,6 +20,7 @@ mod expected;
 mod expression;
 pub mod format;
 mod formula;
+pub mod glossary;
 mod grammar;
 mod mend;
 mod number;
