@@ -6,6 +6,7 @@
 mod common;
 
 mod generated;
+mod neovim;
 mod tools;
 mod tree_sitter;
 mod vim;
