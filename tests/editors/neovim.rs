@@ -145,6 +145,8 @@ fn the_language_server_serves_a_whole_session() {
     let mended = MISSION.replace("yrad", "yard");
     let renamed = mended.replace("docks", "harbour");
     assert_eq!(answer["renamed"], renamed);
+    let offered = answer["offered"].as_array().expect("items");
+    assert!(offered.contains(&json!("harbour")) && offered.contains(&json!("yard")), "{offered:?}");
     assert_eq!(answer["formatted"], formatted(&renamed, &scratch("neovim-session")));
     let said = answer["said"].to_string();
     assert!(said.contains("planning"), "{said}");
@@ -160,7 +162,7 @@ fn without_the_program_something_is_said() {
     assert_eq!(answer["filetype"], "dosm");
     let said = answer["said"].as_array().expect("messages");
     assert!(
-        said.len() == 1 && said[0].as_str().is_some_and(|text| text.contains("g:dosm_program")),
+        said.len() == 1 && said[0].as_str().is_some_and(|text| text.contains("dosm_program")),
         "{said:?}"
     );
 }
