@@ -6,6 +6,8 @@ local answer = {}
 
 vim.opt.runtimepath:prepend(vim.env.DOSMC_PLUGIN)
 vim.opt.swapfile = false
+-- So that the cursor can stand behind a line, as it does while one types.
+vim.opt.virtualedit = "onemore"
 vim.cmd("filetype plugin indent on")
 vim.cmd("syntax on")
 
