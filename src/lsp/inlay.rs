@@ -6,6 +6,8 @@ use lsp_types::{InlayHint, InlayHintLabel, InlayHintTooltip, Range};
 use super::Document;
 use super::number;
 use crate::check::{Facts, Known};
+use crate::exact::Rational;
+use crate::quantity::Unit;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FamilyName, Item, ItemKind};
 
@@ -67,8 +69,7 @@ fn constant(facts: &Facts, place: usize, value: &Expr) -> Option<Hint> {
     let known = facts.constant(place).filter(|known| matches!(known, Known::Scalar(_)))?;
     let Known::Scalar(quantity) = known else { return None };
     // A parameter that the command line overrides says another number than it has.
-    let plain =
-        is_plain(value) && facts.value(value.span).is_none_or(|v| v.listed.contains(&quantity.number));
+    let plain = plain(value).is_some_and(|number| number == quantity.number);
     (!plain).then(|| Hint {
         at: value.span.end,
         label: format!("= {}", number::known(known)),
@@ -76,16 +77,19 @@ fn constant(facts: &Facts, place: usize, value: &Expr) -> Option<Hint> {
     })
 }
 
-/// Whether an expression is a number with or without sign and unit.
-fn is_plain(expr: &Expr) -> bool {
-    let mut expr = expr;
+/// The value of a number with or without sign and unit.
+fn plain(expr: &Expr) -> Option<Rational> {
+    let (mut expr, mut scale) = (expr, Rational::ONE);
     loop {
         match &expr.kind {
-            ExprKind::Number(_) | ExprKind::Table(_) => return true,
-            ExprKind::WithUnit(inner, _) | ExprKind::Negate(inner) | ExprKind::Parenthesised(inner) => {
+            ExprKind::Number(number) => return Some(number * &scale),
+            ExprKind::WithUnit(inner, unit) => {
+                scale *= &Unit::from_factors(&unit.factors).ok()?.scale;
                 expr = inner;
             }
-            _ => return false,
+            ExprKind::Negate(inner) => (expr, scale) = (inner, -scale),
+            ExprKind::Parenthesised(inner) => expr = inner,
+            _ => return None,
         }
     }
 }

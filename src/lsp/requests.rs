@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::document::Document;
 use super::queue::Job;
 use super::session::{Session, refusal};
-use super::{completion, formatting, hover, lens, navigation, rename};
+use super::{completion, formatting, highlight, hover, inlay, lens, navigation, rename, semantic, signature};
 
 /// The answer to a request.
 ///
@@ -72,6 +72,36 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
             about!(request::Rename, |p| p.text_document_position.text_document, |d| {
                 let position = p.text_document_position.position;
                 Some(rename::rename(&d, position, &p.new_name).map_err(failed)?)
+            })
+        }
+        request::DocumentHighlightRequest::METHOD => {
+            about!(
+                request::DocumentHighlightRequest,
+                |p| p.text_document_position_params.text_document,
+                |d| highlight::highlights(&d, p.text_document_position_params.position)
+            )
+        }
+        request::InlayHintRequest::METHOD => {
+            about!(request::InlayHintRequest, |p| p.text_document, |d| Some(inlay::hints(&d, p.range)))
+        }
+        request::SignatureHelpRequest::METHOD => {
+            about!(request::SignatureHelpRequest, |p| p.text_document_position_params.text_document, |d| {
+                signature::help(&d, p.text_document_position_params.position)
+            })
+        }
+        request::SemanticTokensFullRequest::METHOD => {
+            about!(request::SemanticTokensFullRequest, |p| p.text_document, |d| {
+                Some(session.colours.full(&d).into())
+            })
+        }
+        request::SemanticTokensFullDeltaRequest::METHOD => {
+            about!(request::SemanticTokensFullDeltaRequest, |p| p.text_document, |d| {
+                Some(session.colours.delta(&d, &p.previous_result_id))
+            })
+        }
+        request::SemanticTokensRangeRequest::METHOD => {
+            about!(request::SemanticTokensRangeRequest, |p| p.text_document, |d| {
+                Some(semantic::range(&d, p.range).into())
             })
         }
         request::HoverRequest::METHOD => {

@@ -3,13 +3,18 @@
 //! Names have theirs from the index, everything else from the tokens alone, so that a declaration that
 //! can't be read is coloured as well.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use lsp_types::{
     Range, SemanticToken, SemanticTokenModifier, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
-    SemanticTokensEdit, SemanticTokensLegend,
+    SemanticTokensEdit, SemanticTokensFullDeltaResult, SemanticTokensLegend, Uri,
 };
 
 use super::Document;
 use super::index::{Builtin, Index, Occurrence, SymbolKind};
+use super::session::lock;
 use crate::source::Span;
 use crate::syntax::token::{Kind, Token, tokens};
 use crate::syntax::words;
@@ -58,8 +63,40 @@ pub fn range(document: &Document, range: Range) -> SemanticTokens {
     coloured(document, document.lines.span_of(range))
 }
 
+/// The colours that were sent last, of each mission, with their names.
+#[derive(Default)]
+pub struct Colours {
+    sent: Mutex<BTreeMap<String, (String, Vec<SemanticToken>)>>,
+    count: AtomicU64,
+}
+
+impl Colours {
+    /// The colours of a whole mission, kept so that later ones can be told by their difference.
+    pub fn full(&self, document: &Document) -> SemanticTokens {
+        let name = self.count.fetch_add(1, Ordering::Relaxed).to_string();
+        let tokens = SemanticTokens { result_id: Some(name.clone()), ..full(document) };
+        lock(&self.sent).insert(document.uri.as_str().to_string(), (name, tokens.data.clone()));
+        tokens
+    }
+
+    /// What has changed since colours of a name; all of them where these are not known any more.
+    pub fn delta(&self, document: &Document, name: &str) -> SemanticTokensFullDeltaResult {
+        let earlier = lock(&self.sent).remove(document.uri.as_str()).filter(|(sent, _)| sent == name);
+        let now = self.full(document);
+        match earlier {
+            Some((_, before)) => delta(&before, &now).into(),
+            None => now.into(),
+        }
+    }
+
+    /// Forgets a mission that was closed.
+    pub fn forget(&self, uri: &Uri) {
+        lock(&self.sent).remove(uri.as_str());
+    }
+}
+
 /// What has changed from the colours of an earlier moment, in one edit.
-pub fn delta(before: &[SemanticToken], after: &SemanticTokens) -> SemanticTokensDelta {
+fn delta(before: &[SemanticToken], after: &SemanticTokens) -> SemanticTokensDelta {
     let now = &after.data;
     let same = |(a, b): &(&SemanticToken, &SemanticToken)| a == b;
     let head = before.iter().zip(now).take_while(same).count();

@@ -14,6 +14,7 @@ use serde_json::Value;
 
 use super::document::Document;
 use super::lines::Encoding;
+use super::semantic::Colours;
 use super::solve::Runs;
 use super::tubes::Tubes;
 use super::wire;
@@ -84,6 +85,8 @@ pub struct Session {
     pub runs: Runs,
     /// The tubes of single models.
     pub tubes: Tubes,
+    /// The colours that the client was sent last.
+    pub colours: Colours,
     outgoing: Sender<Value>,
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
@@ -107,6 +110,7 @@ impl Session {
             host,
             runs: Runs::default(),
             tubes: Tubes::default(),
+            colours: Colours::default(),
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),
@@ -135,6 +139,7 @@ impl Session {
     pub fn close(&self, uri: Uri) {
         let _order = lock(&self.publishing);
         Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str());
+        self.colours.forget(&uri);
         self.runs.close(uri.as_str());
         self.notify::<PublishDiagnostics>(PublishDiagnosticsParams {
             uri,
