@@ -7,6 +7,7 @@ mod common;
 
 mod generated;
 mod neovim;
+mod queries;
 mod tools;
 mod tree_sitter;
 mod vim;

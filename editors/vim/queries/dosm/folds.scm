@@ -1,3 +1,4 @@
+; Generated from editors/tree-sitter/queries/folds.scm by tests/editors.
 ; What can be folded away.
 
 [

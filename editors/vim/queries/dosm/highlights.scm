@@ -1,3 +1,4 @@
+; Generated from editors/tree-sitter/queries/highlights.scm by tests/editors.
 ; What a mission's words are. No two patterns match the same node, so their order means nothing.
 
 ; ---- Comments -------------------------------------------------------------------------------------

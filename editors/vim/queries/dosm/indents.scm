@@ -1,3 +1,4 @@
+; Generated from editors/tree-sitter/queries/indents.scm by tests/editors.
 ; The style of `dosmc fmt`: what is inside braces is moved to the right, rows stand below the first one, and
 ; what goes on on a further line is moved to the right.
 

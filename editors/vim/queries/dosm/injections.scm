@@ -1,3 +1,4 @@
+; Generated from editors/tree-sitter/queries/injections.scm by tests/editors.
 ; Documentation is Markdown, tags in comments are those of others.
 
 ((doc_comment) @injection.content

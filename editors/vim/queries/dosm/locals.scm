@@ -1,3 +1,4 @@
+; Generated from editors/tree-sitter/queries/locals.scm by tests/editors.
 ; Where names are declared and seen. The order of declarations means nothing, so all of a mission is one scope;
 ; indices and bound variables have scopes of their own.
 
