@@ -59,11 +59,15 @@ const VIM_LIST: Style = Style {
     indent: Some("  \\ "),
 };
 
+/// `'("a" "b")` in Lisp.
+const LISP: Style = Style { open: "'(", close: ")", item: quoted, separator: " ", indent: Some("    ") };
+
 /// The files with lists. Add a line for another one.
-const TARGETS: [Target; 6] = [
+const TARGETS: &[Target] = &[
     Target { file: "editors/vim/syntax/dosm.vim", style: VIM_KEYWORDS, complete: false },
     Target { file: "editors/vim/indent/dosm.vim", style: VIM_LIST, complete: false },
     Target { file: "editors/vscode/syntaxes/dosm.tmLanguage.json", style: JSON_REGEX, complete: true },
+    Target { file: "editors/emacs/dosm-mode.el", style: LISP, complete: true },
     Target { file: "editors/tree-sitter/grammar.js", style: JS_ARRAY, complete: false },
     Target { file: "editors/tree-sitter/src/words.h", style: C_ARRAY, complete: false },
     Target { file: "editors/tree-sitter/queries/highlights.scm", style: QUERY, complete: false },
@@ -159,7 +163,7 @@ fn rewritten(text: &str, style: &Style) -> Result<(String, BTreeSet<&'static str
 fn lists_are_those_of_the_compiler() {
     let update = std::env::var_os("DOSMC_UPDATE").is_some();
     let mut stale = Vec::new();
-    for target in &TARGETS {
+    for target in TARGETS {
         let kept =
             fs::read_to_string(package(target.file)).unwrap_or_else(|e| panic!("{}: {e}", target.file));
         let (fresh, seen) =

@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod emacs;
 mod generated;
 mod neovim;
 mod queries;
