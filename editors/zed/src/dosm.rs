@@ -17,9 +17,9 @@ impl zed::Extension for Dosm {
         let settings = LspSettings::for_worktree(SERVER, worktree).ok();
         let binary = settings.and_then(|settings| settings.binary);
         let (path, arguments) = binary.map_or((None, None), |binary| (binary.path, binary.arguments));
-        let command = path.or_else(|| worktree.which(SERVER)).ok_or(
-            "dosmc is not on the path: install it, or set lsp.dosmc.binary.path in the settings",
-        )?;
+        let command = path
+            .or_else(|| worktree.which(SERVER))
+            .ok_or("dosmc is not on the path: install it, or set lsp.dosmc.binary.path in the settings")?;
         Ok(Command {
             command,
             args: arguments.unwrap_or_else(|| vec!["lsp".to_owned()]),

@@ -5,8 +5,9 @@
 ---   program     the program, "dosmc"
 ---   lsp         whether the language server is started, true
 ---   treesitter  whether tree-sitter colours missions where its parser is there, true
+---   hints       whether values are shown in the text (Neovim 0.10), true
 ---   keys        whether keys are set in missions, true
----   settings    what the server is told, a table
+---   arguments   what is given to `dosmc lsp`, as { "--set", "robots=4" }
 ---   on_attach   called as on_attach(client, buffer) when the server has a mission
 ---   capabilities  what the client can do, as of completion plug-ins
 
@@ -16,8 +17,9 @@ local defaults = {
   program = nil,
   lsp = true,
   treesitter = true,
+  hints = true,
   keys = true,
-  settings = {},
+  arguments = {},
   on_attach = nil,
   capabilities = nil,
 }

@@ -78,6 +78,9 @@ local function attached(client, buffer, options)
     end)
     vim.lsp.codelens.refresh()
   end
+  if options.hints and vim.lsp.inlay_hint and client.server_capabilities.inlayHintProvider then
+    vim.lsp.inlay_hint.enable(true, { bufnr = buffer })
+  end
   if options.on_attach then
     options.on_attach(client, buffer)
   end
@@ -125,10 +128,8 @@ function M.start(buffer, options)
   end
   local config = {
     name = "dosmc",
-    cmd = { options.program, "lsp" },
+    cmd = vim.list_extend({ options.program, "lsp" }, options.arguments),
     root_dir = root(buffer),
-    settings = options.settings,
-    init_options = options.settings,
     capabilities = options.capabilities,
     on_attach = function(client, attached_buffer)
       attached(client, attached_buffer, options)

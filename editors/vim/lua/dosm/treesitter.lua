@@ -37,7 +37,7 @@ function M.start(buffer)
   end
   local highlighter = require("vim.treesitter.highlighter")
   for capture, group in pairs(names) do
-    highlighter.hl_map[capture] = highlighter.hl_map[capture] or group
+    highlighter.hl_map[capture] = rawget(highlighter.hl_map, capture) or group
   end
   return (pcall(function()
     highlighter.new(vim.treesitter.get_parser(buffer, "dosm"))
