@@ -25,7 +25,7 @@ HEAD = """dosm 1
 mission long
 workspace box (0, 0) .. (1000, 1000)
 param margin = 0.5
-let side = 20 m
+let side = 20
 base home at (1, 1)
 jammer mast = ball (995, 5) radius 2
 dynamics Rover {
@@ -194,7 +194,11 @@ def main():
 
     uri, text = "file:///long.dosm", mission(arguments.lines)
     print(f"{'milliseconds':44} {'median':>9} {'95 %':>9} {'longest':>9}")
-    opened = timed(lambda: (server.open(uri, text), server.published(uri)))
+    started = time.perf_counter()
+    server.open(uri, text)
+    said = server.published(uri)["params"]["diagnostics"]
+    opened = 1000 * (time.perf_counter() - started)
+    assert not said, said[0]
     row(f"open {text.count(chr(10))} lines, {len(text)} bytes", [opened])
     row("type a character, to diagnostics", type_into(server, uri, text, arguments.edits, chance))
     ask_about(server, uri, text, chance)
