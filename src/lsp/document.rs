@@ -1,19 +1,20 @@
 //! A mission in an editor: its text at one moment, and what is known of it.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use lsp_types::{Position, Range, TextDocumentContentChangeEvent, Uri};
 
 use super::index::Index;
 use super::lines::{Encoding, Lines};
 use super::location;
+use super::session::lock;
 use crate::check::{Facts, check_with_facts};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::driver::{self, Mission, Overrides};
 use crate::ir::{Problem, Spans};
 use crate::law::Float;
 use crate::source::{SourceFile, Span};
-use crate::syntax::{self, ast};
+use crate::syntax::{self, Memory, ast};
 
 /// A mission at one moment; what is known of it is found out when it is first asked for.
 pub struct Document {
@@ -26,6 +27,8 @@ pub struct Document {
     /// Converts the editor's places.
     pub lines: Lines,
     overrides: Overrides,
+    /// What was read of earlier moments.
+    memory: Arc<Mutex<Memory>>,
     index: OnceLock<Index>,
     facts: OnceLock<Option<Facts>>,
     front: OnceLock<Front>,
@@ -57,7 +60,8 @@ impl Document {
         let source = SourceFile::new(location::name(&uri), text);
         let (index, facts) = (OnceLock::new(), OnceLock::new());
         let (front, whole) = (OnceLock::new(), OnceLock::new());
-        Document { uri, version, source, lines, overrides, index, facts, front, whole }
+        let memory = Arc::default();
+        Document { uri, version, source, lines, overrides, memory, index, facts, front, whole }
     }
 
     /// The mission after some changes, made one after the other.
@@ -68,25 +72,31 @@ impl Document {
         encoding: Encoding,
     ) -> Document {
         let mut text = self.source.text.clone();
-        let mut lines = None;
+        // Changes often come from the last to the first: what stands before one keeps its place.
+        let (mut anew, mut kept): (Option<Lines>, Option<Position>) = (None, None);
         for change in changes {
-            match change.range {
-                None => text = change.text,
-                Some(range) => {
-                    let lines = lines.as_ref().unwrap_or(&self.lines);
-                    text.replace_range(lines.span_of(range).range(), &change.text);
-                }
+            let Some(range) = change.range else {
+                text = change.text;
+                (anew, kept) = (None, Some(Position::default()));
+                continue;
+            };
+            if kept.is_some_and(|kept| range.end > kept) {
+                (anew, kept) = (Some(Lines::new(&text, encoding)), None);
             }
-            lines = Some(Lines::new(&text, encoding));
+            let lines = anew.as_ref().unwrap_or(&self.lines);
+            text.replace_range(lines.span_of(range).range(), &change.text);
+            kept = Some(kept.map_or(range.start, |kept| kept.min(range.start)));
         }
-        Document::new(self.uri.clone(), version, text, encoding, self.overrides.clone())
+        let overrides = self.overrides.clone();
+        let memory = Arc::clone(&self.memory);
+        Document { memory, ..Document::new(self.uri.clone(), version, text, encoding, overrides) }
     }
 
     /// What reading and checking says; found out at the first call.
     pub fn front(&self) -> &Front {
         self.front.get_or_init(|| {
             let mut diagnostics = Diagnostics::new();
-            let file = syntax::parse(&self.source, &mut diagnostics).ok();
+            let file = syntax::parse_again(&self.source, &mut lock(&self.memory), &mut diagnostics).ok();
             let meaning = file
                 .as_ref()
                 .and_then(|file| driver::meaning(file, &self.source, &self.overrides, &mut diagnostics).ok());
@@ -175,6 +185,26 @@ mod tests {
             after.changed(3, vec![whole, change((0, 0), (0, 1), "N")], Encoding::Utf16).source.text,
             "New"
         );
+    }
+
+    #[test]
+    fn the_order_of_changes_does_not_matter_to_where_they_are() {
+        let before = document("one\ntwo\nthree\n");
+        let backwards = vec![
+            change((2, 0), (2, 5), "drei"),
+            change((1, 0), (1, 3), "zwei"),
+            change((0, 0), (0, 3), "eins"),
+        ];
+        assert_eq!(before.changed(2, backwards, Encoding::Utf16).source.text, "eins\nzwei\ndrei\n");
+        let forwards =
+            vec![change((0, 0), (0, 3), "a\nb"), change((1, 1), (1, 1), "!"), change((2, 0), (2, 3), "c")];
+        assert_eq!(before.changed(2, forwards, Encoding::Utf16).source.text, "a\nb!\nc\nthree\n");
+        let mixed =
+            vec![change((1, 1), (1, 1), "?"), change((0, 0), (0, 0), "\n"), change((2, 0), (2, 1), "T")];
+        assert_eq!(before.changed(2, mixed, Encoding::Utf16).source.text, "\none\nT?wo\nthree\n");
+        let whole = TextDocumentContentChangeEvent { range: None, range_length: None, text: "x\ny".into() };
+        let after = before.changed(2, vec![whole, change((1, 0), (1, 1), "z")], Encoding::Utf16);
+        assert_eq!(after.source.text, "x\nz");
     }
 
     #[test]

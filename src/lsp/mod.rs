@@ -1,7 +1,7 @@
 //! The language server: `dosmc lsp`.
 //!
 //! ```text
-//! client ─► wire ─► server (keeps the texts) ─► queue ─► worker: requests, looks ─► wire ─► client
+//! client ─► wire ─► server (keeps the texts) ─► queue ─► workers: requests, looks ─► wire ─► client
 //!                      └─► commands ─► solve: a thread a run
 //! ```
 //!

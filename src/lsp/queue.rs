@@ -1,4 +1,4 @@
-//! What waits for the worker: requests in their order, then missions to look at.
+//! What waits for the workers: requests in their order, and missions to look at.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -21,14 +21,6 @@ pub struct Job {
     pub documents: Arc<Documents>,
 }
 
-/// Something for the worker to do.
-pub enum Task {
-    /// A request to answer.
-    Answer(Job),
-    /// A mission to look at, in whatever state it is then.
-    Look(Uri),
-}
-
 #[derive(Default)]
 struct Waiting {
     requests: VecDeque<Job>,
@@ -37,7 +29,7 @@ struct Waiting {
     closed: bool,
 }
 
-/// What waits for the worker.
+/// What waits for the workers.
 #[derive(Default)]
 pub struct Queue {
     waiting: Mutex<Waiting>,
@@ -48,7 +40,7 @@ impl Queue {
     /// Adds a request.
     pub fn ask(&self, job: Job) {
         lock(&self.waiting).requests.push_back(job);
-        self.changed.notify_one();
+        self.changed.notify_all();
     }
 
     /// Has a mission looked at; a look at it that is waiting is dropped, as it would see the same.
@@ -56,7 +48,7 @@ impl Queue {
         let mut waiting = lock(&self.waiting);
         waiting.looks.retain(|other| *other != uri);
         waiting.looks.push_back(uri);
-        self.changed.notify_one();
+        self.changed.notify_all();
     }
 
     /// Whether a look at a mission waits: then it has changed.
@@ -64,24 +56,34 @@ impl Queue {
         lock(&self.waiting).looks.contains(uri)
     }
 
-    /// Ends the worker when it has answered what is asked.
+    /// Lets the workers end when they have answered what is asked.
     pub fn close(&self) {
         lock(&self.waiting).closed = true;
-        self.changed.notify_one();
+        self.changed.notify_all();
     }
 
-    /// Waits for the next task: requests before looks; `None` when there will be no more.
-    pub fn next(&self) -> Option<Task> {
+    /// Waits for the next request; `None` when there will be no more.
+    pub fn next_request(&self) -> Option<Job> {
+        self.next(|waiting| waiting.requests.pop_front(), |waiting| waiting.closed)
+    }
+
+    /// Waits for the next mission to look at; `None` when nobody wants to know any more.
+    pub fn next_look(&self) -> Option<Uri> {
+        self.next(|waiting| waiting.looks.pop_front().filter(|_| !waiting.closed), |waiting| waiting.closed)
+    }
+
+    fn next<T>(
+        &self,
+        take: impl Fn(&mut Waiting) -> Option<T>,
+        is_over: impl Fn(&Waiting) -> bool,
+    ) -> Option<T> {
         let mut waiting = lock(&self.waiting);
         loop {
-            if let Some(job) = waiting.requests.pop_front() {
-                return Some(Task::Answer(job));
+            if let Some(task) = take(&mut waiting) {
+                return Some(task);
             }
-            if waiting.closed {
+            if is_over(&waiting) {
                 return None;
-            }
-            if let Some(uri) = waiting.looks.pop_front() {
-                return Some(Task::Look(uri));
             }
             waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner);
         }
@@ -97,29 +99,20 @@ mod tests {
     }
 
     #[test]
-    fn requests_come_first_and_each_mission_is_looked_at_once() {
+    fn each_mission_is_looked_at_once_and_each_request_is_answered() {
         let queue = Queue::default();
         queue.look(uri("a"));
         queue.look(uri("b"));
         queue.look(uri("a"));
         let documents = Arc::default();
         queue.ask(Job { id: 1.into(), method: "m".into(), params: Value::Null, documents });
-        let mut said = Vec::new();
-        queue.close();
-        // Closed: the request is answered, looks are dropped.
-        while let Some(task) = queue.next() {
-            said.push(match task {
-                Task::Answer(job) => job.method,
-                Task::Look(uri) => uri.as_str().to_string(),
-            });
-        }
-        assert_eq!(said, ["m"]);
-        lock(&queue.waiting).closed = false;
         assert!(queue.awaits_look(&uri("b")) && !queue.awaits_look(&uri("d")));
-        let order = [queue.next(), queue.next()].map(|task| match task {
-            Some(Task::Look(uri)) => uri.as_str().to_string(),
-            _ => "none".into(),
-        });
-        assert_eq!(order, ["file:///b", "file:///a"]);
+        let looks = [queue.next_look(), queue.next_look()];
+        assert_eq!(looks, [Some(uri("b")), Some(uri("a"))]);
+        queue.look(uri("c"));
+        queue.close();
+        // What is asked is answered; what nobody will see is not looked at.
+        assert_eq!(queue.next_request().map(|job| job.method).as_deref(), Some("m"));
+        assert!(queue.next_request().is_none() && queue.next_look().is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! The requests that the worker answers.
+//! The requests that the workers answer.
 
 use std::sync::Arc;
 

@@ -1,13 +1,13 @@
-//! The loop that hears the client, and the worker that answers it.
+//! The loop that hears the client, and the workers that answer it.
 //!
 //! The loop does nothing that takes time: it keeps the texts, and passes requests on with the texts as they
-//! are at that moment. So a cancelled request is answered at once, whatever the worker is at, and of many
+//! are at that moment. So a cancelled request is answered at once, whatever the workers are at, and of many
 //! changes in a row only the last is looked at.
 
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
-use std::thread;
+use std::thread::{self, JoinHandle};
 
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
 use lsp_types::notification::{self, Notification as _};
@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::document::Document;
-use super::queue::{Job, Queue, Task};
+use super::queue::{Job, Queue};
 use super::session::{Client, Session, refusal};
 use super::wire::{self, Arrival};
 use super::{Host, capabilities, commands, requests};
@@ -28,6 +28,9 @@ use crate::driver::Overrides;
 
 /// The stack of threads that read missions, in bytes: formulas nest.
 pub const STACK: usize = 16 << 20;
+
+/// How many threads answer requests.
+const ANSWERING: usize = 2;
 
 /// How a session ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,18 +56,16 @@ pub fn serve(
     };
     let session = Arc::new(Session::new(client, overrides.clone(), Arc::clone(host), outgoing.clone()));
     let queue = Arc::new(Queue::default());
-    let worker = {
-        let (session, queue) = (Arc::clone(&session), Arc::clone(&queue));
-        thread::Builder::new().name("worker".into()).stack_size(STACK).spawn(move || work(&session, &queue))
-    };
+    let workers = workers(&session, &queue);
     let ending =
         Server { session: Arc::clone(&session), queue: Arc::clone(&queue), shut: false }.hear(incoming);
     session.runs.stop_all();
     queue.close();
-    if let Ok(worker) = worker
-        && ending == Ending::Orderly
-    {
-        let _ = worker.join();
+    if ending == Ending::Orderly {
+        // What is asked is answered; a look that goes on is of no use to anybody.
+        for worker in workers.into_iter().take(ANSWERING) {
+            let _ = worker.join();
+        }
     }
     ending
 }
@@ -205,23 +206,35 @@ fn with<P: DeserializeOwned>(params: Value, act: impl FnOnce(P)) {
     }
 }
 
-/// Does what is in the queue until it is closed.
-fn work(session: &Session, queue: &Queue) {
-    while let Some(task) = queue.next() {
-        match task {
-            Task::Answer(job) if session.is_wanted(&job.id) => {
-                let id = job.id.clone();
-                // A bug in an answer must not end the session.
-                let answer = panic::catch_unwind(AssertUnwindSafe(|| requests::answer(session, job)));
-                let failed = |_| Err(refusal(ErrorCode::InternalError, "internal error: please report it"));
-                session.answer(id, answer.unwrap_or_else(failed));
-            }
-            Task::Answer(_) => {}
-            Task::Look(uri) => {
-                if let Some(document) = session.document(&uri) {
-                    let _ = panic::catch_unwind(AssertUnwindSafe(|| look(session, queue, &document)));
-                }
-            }
+/// Starts the threads that answer and the one that looks: a mission that takes long to look at keeps nobody
+/// from asking about another.
+fn workers(session: &Arc<Session>, queue: &Arc<Queue>) -> Vec<JoinHandle<()>> {
+    let spawn = |name: &str, work: fn(&Session, &Queue)| {
+        let (session, queue) = (Arc::clone(session), Arc::clone(queue));
+        thread::Builder::new().name(name.into()).stack_size(STACK).spawn(move || work(&session, &queue))
+    };
+    let answering = (0..ANSWERING).map(|_| spawn("answers", answer_all));
+    answering.chain([spawn("looks", look_at_all)]).flatten().collect()
+}
+
+/// Answers what is asked until the queue is closed.
+fn answer_all(session: &Session, queue: &Queue) {
+    while let Some(job) = queue.next_request() {
+        if session.is_wanted(&job.id) {
+            let id = job.id.clone();
+            // A bug in an answer must not end the session.
+            let answer = panic::catch_unwind(AssertUnwindSafe(|| requests::answer(session, job)));
+            let failed = |_| Err(refusal(ErrorCode::InternalError, "internal error: please report it"));
+            session.answer(id, answer.unwrap_or_else(failed));
+        }
+    }
+}
+
+/// Looks at what has changed until the queue is closed.
+fn look_at_all(session: &Session, queue: &Queue) {
+    while let Some(uri) = queue.next_look() {
+        if let Some(document) = session.document(&uri) {
+            let _ = panic::catch_unwind(AssertUnwindSafe(|| look(session, queue, &document)));
         }
     }
 }

@@ -169,7 +169,7 @@ pub fn start(session: &Arc<Session>, id: RequestId, document: Arc<Document>, tok
     if !session.runs.enter(&run) {
         return session.answer(id, Err(refusal(ErrorCode::RequestFailed, "this mission is being planned")));
     }
-    // Formulas nest, as for the worker.
+    // Formulas nest, as for the workers.
     let spawned = thread::Builder::new().name("planner".into()).stack_size(super::server::STACK);
     let planner = Arc::clone(&run);
     if let Err(error) = spawned.spawn(move || planner.run()) {

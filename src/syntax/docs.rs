@@ -1,6 +1,7 @@
 //! Documentation comments: found by the scan, claimed by what stands behind them.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::source::Span;
 use crate::syntax::ast::Doc;
@@ -37,6 +38,11 @@ impl Docs {
     /// Adds a comment that can't document anything where it stands.
     pub(super) fn add_stray(&mut self, span: Span) {
         self.stray.push(span);
+    }
+
+    /// The places of the comments that nothing has claimed yet, in a part of the condensed text.
+    pub(super) fn unclaimed(&self, part: Range<usize>) -> Vec<usize> {
+        self.before.range(part).map(|(place, _)| *place).collect()
     }
 
     /// The comment before the token at `place`, which now has its owner.

@@ -22,7 +22,9 @@ pub mod format;
 mod formula;
 pub mod glossary;
 mod grammar;
+mod memory;
 mod mend;
+mod moved;
 mod number;
 mod reader;
 mod scan;
@@ -31,4 +33,5 @@ pub mod token;
 pub mod words;
 
 pub use dump::dump;
-pub use reader::{decode, parse, parse_expression};
+pub use memory::Memory;
+pub use reader::{decode, parse, parse_again, parse_expression};

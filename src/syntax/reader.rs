@@ -9,6 +9,7 @@ use crate::syntax::docs::Docs;
 use crate::syntax::error;
 use crate::syntax::expected::{self, Failure, Surroundings};
 use crate::syntax::grammar::{self, Built, Node, Rule, Stop};
+use crate::syntax::memory::{Memory, Place};
 use crate::syntax::mend;
 use crate::syntax::scan::{self, Scan, Stretch};
 use crate::syntax::words::DECLARATIONS;
@@ -22,6 +23,29 @@ use crate::syntax::words::DECLARATIONS;
 /// # Errors
 /// [`Reported`] when nothing useful can be read.
 pub fn parse(source: &SourceFile, diagnostics: &mut Diagnostics) -> Result<File, Reported> {
+    read(source, None, diagnostics)
+}
+
+/// Parses a mission as [`parse`] does, faster where most of its declarations are in `memory`; it remembers
+/// this mission's from then on.
+///
+/// # Errors
+/// [`Reported`] when nothing useful can be read.
+pub fn parse_again(
+    source: &SourceFile,
+    memory: &mut Memory,
+    diagnostics: &mut Diagnostics,
+) -> Result<File, Reported> {
+    let file = read(source, Some(memory), diagnostics);
+    memory.turn();
+    file
+}
+
+fn read(
+    source: &SourceFile,
+    memory: Option<&mut Memory>,
+    diagnostics: &mut Diagnostics,
+) -> Result<File, Reported> {
     if source.text.len() > error::MAX_TEXT {
         return Err(diagnostics.report(error::text_too_long(source.text.len())));
     }
@@ -34,7 +58,7 @@ pub fn parse(source: &SourceFile, diagnostics: &mut Diagnostics) -> Result<File,
         let end = source.text.len();
         return Err(diagnostics.report(error::empty(Span::new(end, end))));
     }
-    let mut reader = Reader::new(source, &condensed, docs, diagnostics);
+    let mut reader = Reader::new(source, &condensed, docs, memory, diagnostics);
     reader.check_beginning(&stretches);
     reader.read(&stretches)?;
     reader.finish()
@@ -82,6 +106,7 @@ struct Reader<'a> {
     source: &'a SourceFile,
     condensed: &'a Condensed,
     docs: Docs,
+    memory: Option<&'a mut Memory>,
     diagnostics: &'a mut Diagnostics,
     items: Vec<Item>,
     broken: Vec<Broken>,
@@ -92,9 +117,10 @@ impl<'a> Reader<'a> {
         source: &'a SourceFile,
         condensed: &'a Condensed,
         docs: Docs,
+        memory: Option<&'a mut Memory>,
         diagnostics: &'a mut Diagnostics,
     ) -> Reader<'a> {
-        Reader { source, condensed, docs, diagnostics, items: Vec::new(), broken: Vec::new() }
+        Reader { source, condensed, docs, memory, diagnostics, items: Vec::new(), broken: Vec::new() }
     }
 
     fn finish(mut self) -> Result<File, Reported> {
@@ -136,9 +162,20 @@ impl<'a> Reader<'a> {
     }
 
     fn read(&mut self, stretches: &[Stretch]) -> Result<(), Reported> {
-        let mut rest = stretches;
+        let (mut rest, mut from) = (stretches, 0);
         while let [stretch, after @ ..] = rest {
-            let both = self.read_stretch(stretch, after.first());
+            let to = self.place(stretch.range.start, stretch.range.end).end;
+            let place = Place {
+                text: self.source.slice(Span { start: from, end: to }),
+                start: from,
+                stretch: stretch.range.start,
+            };
+            from = to;
+            if self.recall(place) {
+                rest = after;
+                continue;
+            }
+            let both = self.read_stretch(stretch, after.first(), place);
             rest = if both { after.get(1..).unwrap_or(&[]) } else { after };
             if self.broken.len() > error::MAX_ERRORS {
                 let end = self.place(stretch.range.end, stretch.range.end);
@@ -148,13 +185,24 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Takes a declaration that was read before; gives whether there is one.
+    fn recall(&mut self, place: Place<'_>) -> bool {
+        let memory = self.memory.as_mut();
+        let item = memory.and_then(|memory| memory.recall(place, &mut self.docs));
+        let is_known = item.is_some();
+        self.items.extend(item);
+        is_known
+    }
+
     /// Reads one declaration; gives whether the next stretch was a part of it.
-    fn read_stretch(&mut self, stretch: &Stretch, next: Option<&Stretch>) -> bool {
+    fn read_stretch(&mut self, stretch: &Stretch, next: Option<&Stretch>, place: Place<'_>) -> bool {
         let text = self.text(stretch);
         let failure = match grammar::run(Rule::lone_declaration, text) {
             Ok(pairs) => {
-                if first(pairs).and_then(|node| self.build(node, stretch)).is_err() {
-                    self.lose(stretch, 0);
+                let before = self.docs.unclaimed(stretch.range.clone());
+                match first(pairs).and_then(|node| self.build(node, stretch)) {
+                    Ok(()) => self.keep(stretch, place, before),
+                    Err(Stop) => self.lose(stretch, 0),
                 }
                 return false;
             }
@@ -172,6 +220,18 @@ impl<'a> Reader<'a> {
         let lost_from = self.keep_beginning(&failure, stretch);
         self.lose(stretch, lost_from);
         false
+    }
+
+    /// Remembers the declaration that was built last, unless something was said about it; `docs` are the
+    /// comments that it could claim.
+    fn keep(&mut self, stretch: &Stretch, place: Place<'_>, mut docs: Vec<usize>) {
+        let (Some(memory), Some(item)) = (self.memory.as_mut(), self.items.last()) else { return };
+        if stretch.reported || matches!(item.kind, ItemKind::Edition(_)) {
+            return;
+        }
+        let left = self.docs.unclaimed(stretch.range.clone());
+        docs.retain(|doc| !left.contains(doc));
+        memory.keep(place, item, &docs);
     }
 
     /// Whether the keyword that the next stretch begins with was meant as a name in this one.
