@@ -10,7 +10,10 @@ use serde_json::Value;
 use super::document::Document;
 use super::queue::Job;
 use super::session::{Session, refusal};
-use super::{completion, formatting, highlight, hover, inlay, lens, navigation, rename, semantic, signature};
+use super::{
+    completion, folding, formatting, highlight, hover, inlay, lens, navigation, outline, rename, selection,
+    semantic, signature, symbols,
+};
 
 /// The answer to a request.
 ///
@@ -36,6 +39,22 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
             about!(request::Completion, |p| p.text_document_position.text_document, |d| {
                 let typed = p.context.as_ref().and_then(|c| c.trigger_character.as_deref());
                 completion::complete(&d, p.text_document_position.position, typed, session.client)
+            })
+        }
+        request::DocumentSymbolRequest::METHOD => {
+            about!(request::DocumentSymbolRequest, |p| p.text_document, |d| {
+                Some(outline::outline(&d, session.client))
+            })
+        }
+        request::WorkspaceSymbolRequest::METHOD => on::<request::WorkspaceSymbolRequest>(params, |p| {
+            Ok(Some(symbols::find(session, &documents, &p.query)))
+        }),
+        request::FoldingRangeRequest::METHOD => {
+            about!(request::FoldingRangeRequest, |p| p.text_document, |d| Some(folding::folds(&d)))
+        }
+        request::SelectionRangeRequest::METHOD => {
+            about!(request::SelectionRangeRequest, |p| p.text_document, |d| {
+                Some(selection::ranges(&d, &p.positions))
             })
         }
         request::Formatting::METHOD => {

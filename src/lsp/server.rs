@@ -13,8 +13,9 @@ use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response}
 use lsp_types::notification::{self, Notification as _};
 use lsp_types::request::{self, Request as _};
 use lsp_types::{
-    CancelParams, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    InitializeParams, NumberOrString, WorkDoneProgressCancelParams,
+    CancelParams, DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, InitializeParams, NumberOrString, WorkDoneProgressCancelParams,
+    WorkspaceFolder,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -50,11 +51,12 @@ pub fn serve(
     overrides: &Overrides,
     host: &Arc<dyn Host>,
 ) -> Ending {
-    let client = match handshake(incoming, outgoing) {
-        Ok(client) => client,
+    let (client, folders) = match handshake(incoming, outgoing) {
+        Ok(begun) => begun,
         Err(ending) => return ending,
     };
     let session = Arc::new(Session::new(client, overrides.clone(), Arc::clone(host), outgoing.clone()));
+    session.change_folders(&folders, &[]);
     let queue = Arc::new(Queue::default());
     let workers = workers(&session, &queue);
     let ending =
@@ -72,7 +74,10 @@ pub fn serve(
 
 /// Waits for `initialize` and answers it; all other requests are refused until then. Where it does not come,
 /// gives how the session ended.
-fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Result<Client, Ending> {
+fn handshake(
+    incoming: &Receiver<Arrival>,
+    outgoing: &Sender<Value>,
+) -> Result<(Client, Vec<WorkspaceFolder>), Ending> {
     let answer = |id, response_result| {
         let _ = outgoing.send(wire::encode(&Message::Response(Response { id, response_result })));
     };
@@ -90,7 +95,7 @@ fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Result<C
                     Ok(params) => {
                         let client = Client::new(&params.capabilities);
                         answer(id, Ok(capabilities::answer(client)));
-                        return Ok(client);
+                        return Ok((client, folders(params)));
                     }
                     Err(error) => answer(id, Err(refusal(ErrorCode::InvalidParams, error.to_string()))),
                 }
@@ -105,6 +110,13 @@ fn handshake(incoming: &Receiver<Arrival>, outgoing: &Sender<Value>) -> Result<C
         }
     }
     Err(end)
+}
+
+/// The folders that a session begins with.
+#[expect(deprecated, reason = "older clients name one root only")]
+fn folders(params: InitializeParams) -> Vec<WorkspaceFolder> {
+    let root = params.root_uri.map(|uri| vec![WorkspaceFolder { uri, name: String::new() }]);
+    params.workspace_folders.or(root).unwrap_or_default()
 }
 
 /// The loop's state.
@@ -160,6 +172,11 @@ impl Server {
             notification::DidOpenTextDocument::METHOD => with(note.params, |p| self.open(p)),
             notification::DidChangeTextDocument::METHOD => with(note.params, |p| self.change(p)),
             notification::DidCloseTextDocument::METHOD => with(note.params, |p| self.close(p)),
+            notification::DidChangeWorkspaceFolders::METHOD => {
+                with(note.params, |p: DidChangeWorkspaceFoldersParams| {
+                    self.session.change_folders(&p.event.added, &p.event.removed);
+                });
+            }
             notification::Cancel::METHOD => with(note.params, |p: CancelParams| {
                 let id = match p.id {
                     NumberOrString::Number(id) => RequestId::from(id),

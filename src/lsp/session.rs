@@ -1,14 +1,14 @@
 //! What the threads of a server share.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use lsp_types::notification::PublishDiagnostics;
-use lsp_types::{ClientCapabilities, PublishDiagnosticsParams, Uri};
+use lsp_types::{ClientCapabilities, PublishDiagnosticsParams, Uri, WorkspaceFolder};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -16,9 +16,10 @@ use super::document::Document;
 use super::lines::Encoding;
 use super::semantic::Colours;
 use super::solve::Runs;
+use super::symbols::Shelf;
 use super::tubes::Tubes;
 use super::wire;
-use super::{Host, diagnostics};
+use super::{Host, diagnostics, location};
 use crate::driver::Overrides;
 
 /// The open missions, by their URIs.
@@ -37,6 +38,8 @@ pub struct Client {
     pub code_links: bool,
     /// Whether it asks again for lenses when told to.
     pub refresh_lenses: bool,
+    /// Whether it shows an outline as a tree.
+    pub symbol_trees: bool,
     /// Whether a completion may have places to fill in.
     pub snippets: bool,
     /// Whether a completion may say how to insert and how to replace.
@@ -64,6 +67,9 @@ impl Client {
                 .as_ref()
                 .and_then(|w| w.code_lens.as_ref()?.refresh_support)
                 .unwrap_or(false),
+            symbol_trees: text
+                .and_then(|t| t.document_symbol.as_ref()?.hierarchical_document_symbol_support)
+                .unwrap_or(false),
             snippets: item.and_then(|i| i.snippet_support).unwrap_or(false),
             insert_replace: item.and_then(|i| i.insert_replace_support).unwrap_or(false),
             markdown_completion: item
@@ -87,6 +93,9 @@ pub struct Session {
     pub tubes: Tubes,
     /// The colours that the client was sent last.
     pub colours: Colours,
+    /// The symbols of missions that are not open.
+    pub shelf: Shelf,
+    folders: Mutex<Vec<PathBuf>>,
     outgoing: Sender<Value>,
     documents: Mutex<Arc<Documents>>,
     /// The requests that have no answer yet; who takes one out answers it.
@@ -111,11 +120,31 @@ impl Session {
             runs: Runs::default(),
             tubes: Tubes::default(),
             colours: Colours::default(),
+            shelf: Shelf::default(),
+            folders: Mutex::default(),
             outgoing,
             documents: Mutex::default(),
             pending: Mutex::default(),
             publishing: Mutex::default(),
             requests: AtomicI32::new(0),
+        }
+    }
+
+    /// The workspace's folders.
+    pub fn folders(&self) -> Vec<PathBuf> {
+        lock(&self.folders).clone()
+    }
+
+    /// Adds folders to the workspace, after taking some away.
+    pub fn change_folders(&self, added: &[WorkspaceFolder], removed: &[WorkspaceFolder]) {
+        let path = |folder: &WorkspaceFolder| location::path(&folder.uri);
+        let removed: Vec<PathBuf> = removed.iter().filter_map(path).collect();
+        let mut folders = lock(&self.folders);
+        folders.retain(|folder| !removed.contains(folder));
+        for folder in added.iter().filter_map(path) {
+            if !folders.contains(&folder) {
+                folders.push(folder);
+            }
         }
     }
 

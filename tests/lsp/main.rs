@@ -5,5 +5,6 @@
 mod client;
 mod life;
 mod names;
+mod outline;
 mod plan;
 mod texts;

@@ -9,6 +9,7 @@ use crate::lsp::document::Document;
 use crate::lsp::index::SymbolKind;
 use crate::lsp::session::Client;
 use crate::source::Span;
+use crate::syntax::glossary;
 
 use super::candidates::{Candidate, Kind};
 use super::forms::filled;
@@ -46,7 +47,10 @@ impl Items<'_> {
         CompletionItem {
             kind: Some(kind(candidate.kind, format.is_some())),
             detail: candidate.detail,
-            documentation: candidate.doc.map(|doc| self.documentation(doc)),
+            documentation: candidate
+                .doc
+                .or_else(|| self.meaning(candidate.kind, &candidate.label))
+                .map(|d| self.documentation(d)),
             sort_text: Some(format!("{at:05}")),
             text_edit: Some(self.edit(text, candidate.continues_unit)),
             insert_text_format: format,
@@ -65,6 +69,20 @@ impl Items<'_> {
             return CompletionTextEdit::InsertAndReplace(InsertReplaceEdit { new_text, insert, replace });
         }
         CompletionTextEdit::Edit(TextEdit { range: insert, new_text })
+    }
+
+    /// What a word of the language means.
+    fn meaning(&self, kind: Kind, label: &str) -> Option<String> {
+        if !matches!(kind, Kind::Word | Kind::Function | Kind::Coordinate | Kind::Unit) {
+            return None;
+        }
+        let entry = glossary::entry(label.split(' ').next()?)?;
+        let is_plain = !self.client.markdown_completion || entry.example.is_empty();
+        Some(if is_plain {
+            entry.meaning.to_string()
+        } else {
+            format!("{}\n\n```dosm\n{}\n```", entry.meaning, entry.example)
+        })
     }
 
     fn documentation(&self, value: String) -> Documentation {

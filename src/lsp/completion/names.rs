@@ -2,12 +2,10 @@
 
 use crate::lsp::document::Document;
 use crate::lsp::index::{Symbol, SymbolKind};
+use crate::lsp::outline;
 
 use super::candidates::{Candidate, Candidates, Kind};
 use super::place::Place;
-
-/// The longest piece of a declaration that is shown, in characters.
-const MAX_SHOWN: usize = 60;
 
 /// Adds names to candidates.
 pub(super) struct Names<'c, 't> {
@@ -73,19 +71,12 @@ fn members(document: &Document, symbol: &Symbol) -> Vec<Candidate> {
     vec![Candidate { label, snippet: Some(snippet), ..plain }]
 }
 
-/// What the declaration says behind the name, on one line.
+/// What it is, and what its declaration says of it.
 fn detail(document: &Document, symbol: &Symbol) -> String {
     let noun = symbol.kind.noun();
-    let declaration = document.source.slice(symbol.declaration);
-    let behind = (symbol.place.end as usize).checked_sub(symbol.declaration.start as usize);
-    let rest = behind.and_then(|from| declaration.get(from..)).unwrap_or("");
-    let words: Vec<&str> = rest.split_whitespace().collect();
-    let rest = words.join(" ");
-    let rest = rest.trim_start_matches(['=', ':']).trim_start();
-    if symbol.kind == SymbolKind::Dynamics || rest.is_empty() {
+    let behind = outline::behind(&document.source, symbol.declaration, symbol.place);
+    if symbol.kind == SymbolKind::Dynamics || behind.is_empty() {
         return noun.to_string();
     }
-    let short: String = rest.chars().take(MAX_SHOWN).collect();
-    let dots = if short.len() < rest.len() { "…" } else { "" };
-    format!("{noun}: {short}{dots}")
+    format!("{noun}: {behind}")
 }
