@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{missions, package, skipped};
+use crate::common::{package, skipped};
 use crate::tools::{command, output, tool};
+use crate::vscode;
 
 /// The mode's directory.
 const HERE: &str = "editors/emacs";
@@ -25,10 +26,8 @@ fn emacs(what: &str) -> Option<Command> {
 
 /// Missions that parse, one a line.
 fn corpus() -> String {
-    let directories = ["examples", "examples/paper"].map(str::to_owned);
-    let stages = ["ok", "solve", "unsat", "field", "parse"].map(|stage| format!("tests/missions/{stage}"));
-    let all = directories.into_iter().chain(stages).flat_map(|directory| missions(&directory));
-    all.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>().join("\n")
+    let all = vscode::corpus().into_iter().map(|path| path.to_string_lossy().into_owned());
+    all.collect::<Vec<_>>().join("\n")
 }
 
 /// Runs a file of tests; they say on standard error how many there were.

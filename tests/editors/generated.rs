@@ -62,11 +62,15 @@ const VIM_LIST: Style = Style {
 /// `'("a" "b")` in Lisp.
 const LISP: Style = Style { open: "'(", close: ")", item: quoted, separator: " ", indent: Some("    ") };
 
+/// `(?:a|b)` in a regular expression.
+const REGEX: Style = Style { open: "(?:", close: ")", item: regex, separator: "|", indent: None };
+
 /// The files with lists. Add a line for another one.
 const TARGETS: &[Target] = &[
     Target { file: "editors/vim/syntax/dosm.vim", style: VIM_KEYWORDS, complete: false },
     Target { file: "editors/vim/indent/dosm.vim", style: VIM_LIST, complete: false },
     Target { file: "editors/vscode/syntaxes/dosm.tmLanguage.json", style: JSON_REGEX, complete: true },
+    Target { file: "editors/sublime/dosm.sublime-syntax", style: REGEX, complete: true },
     Target { file: "editors/emacs/dosm-mode.el", style: LISP, complete: true },
     Target { file: "editors/tree-sitter/grammar.js", style: JS_ARRAY, complete: false },
     Target { file: "editors/tree-sitter/src/words.h", style: C_ARRAY, complete: false },

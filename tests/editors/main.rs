@@ -5,10 +5,12 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod bat;
 mod emacs;
 mod generated;
 mod neovim;
 mod queries;
+mod sublime;
 mod tools;
 mod tree_sitter;
 mod vim;

@@ -13,7 +13,7 @@ use crate::common::{missions, package, skipped};
 use crate::tools::{command, output, tool};
 
 /// The extension's directory.
-const HERE: &str = "editors/vscode";
+pub const HERE: &str = "editors/vscode";
 
 fn json(path: &str) -> Value {
     let text = fs::read_to_string(package(HERE).join(path)).unwrap_or_else(|e| panic!("{path}: {e}"));
@@ -21,7 +21,7 @@ fn json(path: &str) -> Value {
 }
 
 /// A script of the extension for Node, or a program of one of its packages; says loudly when they aren't there.
-fn node(script: &str, what: &str) -> Option<Command> {
+pub fn node(script: &str, what: &str) -> Option<Command> {
     let node = tool(&["node"], what)?;
     if !package(HERE).join("node_modules/.package-lock.json").is_file() {
         skipped(&format!("{what} was not run: `npm ci` in {HERE} gets its packages"));
@@ -33,7 +33,7 @@ fn node(script: &str, what: &str) -> Option<Command> {
 }
 
 /// Missions that parse.
-fn corpus() -> Vec<PathBuf> {
+pub fn corpus() -> Vec<PathBuf> {
     let directories = ["examples", "examples/paper"];
     let tested = ["ok", "solve", "unsat", "field", "parse"].map(|part| format!("tests/missions/{part}"));
     let all = directories.map(str::to_owned).into_iter().chain(tested);
@@ -77,13 +77,13 @@ fn expanded(body: &str) -> String {
 }
 
 /// The first of some choices, in which commas are escaped.
-fn first_choice(choices: &str) -> String {
+pub fn first_choice(choices: &str) -> String {
     let marked = choices.replace("\\,", "\0");
     marked.split([',', '|']).next().unwrap_or("").replace('\0', ",")
 }
 
-/// The first of some words in a snippet's text or prefix.
-fn texts(value: &Value) -> Vec<&str> {
+/// The texts of a value that is one or several.
+pub fn texts(value: &Value) -> Vec<&str> {
     value
         .as_array()
         .map_or_else(|| vec![value], |all| all.iter().collect())

@@ -1,7 +1,7 @@
 // Tokenizes missions with the grammar, in the engine that VS Code has, and says what is left without a scope.
 //
 //   node test/tokens.mjs FILE...          prints what is wrong; status 1 if anything is
-//   node test/tokens.mjs --all FILE...    prints each token with its scopes, too
+//   node test/tokens.mjs --json FILE...   prints each file's tokens: line and column from 1, text, innermost scope
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 
@@ -46,19 +46,33 @@ function fault({ scopes }) {
   return own.some((scope) => scope.startsWith("invalid")) ? "is taken for invalid" : undefined;
 }
 
-const grammar = await load();
-const all = process.argv[2] === "--all";
-let wrong = 0;
-let count = 0;
-for (const file of process.argv.slice(all ? 3 : 2)) {
-  for (const token of tokens(grammar, readFileSync(file, "utf8"))) {
-    const what = fault(token);
-    const place = `${file}:${token.line}:${token.column}: ${JSON.stringify(token.text)}`;
-    if (all) console.log(place, token.scopes.slice(1).join(" "));
-    if (what) console.log(place, what);
-    if (what) wrong += 1;
-    count += 1;
+/** Prints what is wrong with the tokens of some files; whether all is well. */
+function judge(grammar, files) {
+  let wrong = 0;
+  let count = 0;
+  for (const file of files) {
+    for (const token of tokens(grammar, readFileSync(file, "utf8"))) {
+      const what = fault(token);
+      if (what) console.log(`${file}:${token.line}:${token.column}: ${JSON.stringify(token.text)} ${what}`);
+      if (what) wrong += 1;
+      count += 1;
+    }
   }
+  console.log(`${count} tokens, ${wrong} wrong`);
+  return wrong === 0 && count > 0;
 }
-console.log(`${count} tokens, ${wrong} wrong`);
-process.exit(wrong === 0 && count > 0 ? 0 : 1);
+
+/** The tokens of some files. */
+function listed(grammar, files) {
+  const list = (file) => [...tokens(grammar, readFileSync(file, "utf8"))];
+  const short = ({ line, column, text, scopes }) => [line, column, text, scopes.at(-1)];
+  return Object.fromEntries(files.map((file) => [file, list(file).map(short)]));
+}
+
+const grammar = await load();
+const [first, ...others] = process.argv.slice(2);
+if (first === "--json") {
+  console.log(JSON.stringify(listed(grammar, others)));
+} else {
+  process.exit(judge(grammar, [first, ...others]) ? 0 : 1);
+}
