@@ -7,4 +7,5 @@ mod life;
 mod names;
 mod outline;
 mod plan;
+mod reading;
 mod texts;

@@ -16,6 +16,9 @@ const MOST_MODELS: usize = 4;
 /// The most members of a family that are spoken of one by one.
 const MOST_MEMBERS: usize = 4;
 
+/// The most members of a family whose sizes are computed.
+const MOST_SIZED: usize = 8;
+
 /// A member of a family, or the only one.
 struct Member<'f> {
     name: &'f str,
@@ -81,7 +84,7 @@ fn left(members: &[Member], tube: &ModelTube, facts: &Facts) -> String {
     let name = &tube.model.name;
     let Some(errors) = &tube.errors else { return format!("For `{name}` there is no tube.") };
     let (mut rooms, mut nothing) = (Vec::new(), Vec::new());
-    for member in members {
+    for member in members.iter().take(MOST_SIZED) {
         let room = member.sure.pieces.iter().filter_map(|p| room(p, errors.positions(), facts)).next();
         match room {
             Some(room) => rooms.push(format!("`{}`: {room}", member.name)),
@@ -132,7 +135,7 @@ fn inflated(members: &[Member], tube: &ModelTube) -> String {
     if tube.errors.is_none() {
         return format!("For `{name}` there is no tube.");
     }
-    let grown = members.iter().filter_map(|member| {
+    let grown = members.iter().take(MOST_SIZED).filter_map(|member| {
         let (lo, hi) = bounding_box(&member.shape.pieces)?;
         let sides: Vec<String> = (0..lo.len())
             .filter_map(|axis| Some((&hi[axis] - &lo[axis]).to_f64() + 2.0 * tube.half_width(axis)?))
