@@ -51,6 +51,8 @@ fn shapes() {
     check("dosm 1 region a = hull (1", "hull ⟨(x0, y0)⟩, (x1, y1), (x2, y2), …");
     check("dosm 1 region a = where { x <= 2; ", "where { ⟨x + 2 * y <= 3; …⟩ }");
     silent("dosm 1 region a = where { x <= 2 }");
+    silent("dosm 1 region a = ball (1, 1) radius 2 or ");
+    silent("dosm 1 region a = box");
     check(
         "dosm 1 workspace box (0, 0, 0) .. (1, 1, 1) region a = box (",
         "box ⟨(x0, y0, z0)⟩ .. (x1, y1, z1)",
