@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "reads what the server wrote")]
 
 mod client;
+mod features;
 mod life;
 mod names;
 mod outline;
