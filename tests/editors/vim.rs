@@ -82,10 +82,10 @@ fn ask(editor: Editor, name: &str, questions: &[Value]) -> Option<Vec<Value>> {
 /// Where a token stands in a text, as line and column, each from 1: the one before which so many others come.
 pub fn place(text: &str, token: &str, before: usize) -> (usize, usize) {
     let part = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_');
-    let word = |end: Option<char>| part(end);
+    let goes_on = |a: Option<char>, b: Option<char>| part(a) && part(b);
     let whole = |at: &usize| {
         let (left, right) = (text[..*at].chars().next_back(), text[at + token.len()..].chars().next());
-        !(word(token.chars().next()) && part(left)) && !(word(token.chars().next_back()) && part(right))
+        !goes_on(left, token.chars().next()) && !goes_on(token.chars().next_back(), right)
     };
     let mut places = text.match_indices(token).map(|(at, _)| at).filter(whole);
     let at = places.nth(before).unwrap_or_else(|| panic!("no `{token}` number {before}"));
