@@ -96,7 +96,7 @@ dynamics Rover {
 robot R1: Rover at (4.5, 1)
 goal there: always eventually R1 in docks
 goal back: /* größer, 𝒳 */ eventually R1 in yrad
-goal both: eventually R1 in yard
+goal both: eventually[0 s, 20 s] R1 in yard
 ";
 
 /// A mission in a folder of its own.
@@ -147,6 +147,11 @@ fn the_language_server_serves_a_whole_session() {
     assert_eq!(answer["renamed"], renamed);
     let offered = answer["offered"].as_array().expect("items");
     assert!(offered.contains(&json!("harbour")) && offered.contains(&json!("yard")), "{offered:?}");
+    let symbols = answer["symbols"].as_array().expect("symbols");
+    assert!(symbols.contains(&json!("harbour")) && symbols.contains(&json!("Rover")), "{symbols:?}");
+    // From Neovim 0.10 on.
+    assert!(answer["hints"].is_null() || answer["hints"].to_string().contains("40"), "{}", answer["hints"]);
+    assert!(answer["tokens"].is_null() || answer["tokens"] == json!(["class"]), "{}", answer["tokens"]);
     assert_eq!(answer["formatted"], formatted(&renamed, &scratch("neovim-session")));
     let said = answer["said"].to_string();
     assert!(said.contains("planning"), "{said}");

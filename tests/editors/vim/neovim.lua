@@ -157,6 +157,29 @@ function questions.session()
     end, symbols)
   end
 
+  -- What only newer versions show.
+  if vim.lsp.inlay_hint then
+    await("hints", function()
+      return #vim.lsp.inlay_hint.get({ bufnr = 0 }) > 0
+    end)
+    answer.hints = vim.tbl_map(function(hint)
+      local label = hint.inlay_hint.label
+      return type(label) == "table" and label[1].value or label
+    end, vim.lsp.inlay_hint.get({ bufnr = 0 }))
+  end
+  if vim.lsp.semantic_tokens and vim.lsp.semantic_tokens.get_at_pos then
+    local column = vim.fn.getline(ask.model.line):find(ask.model.token, 1, true) - 1
+    local function tokens()
+      return vim.lsp.semantic_tokens.get_at_pos(0, ask.model.line - 1, column) or {}
+    end
+    await("tokens", function()
+      return #tokens() > 0
+    end)
+    answer.tokens = vim.tbl_map(function(token)
+      return token.type
+    end, tokens())
+  end
+
   vim.cmd("DosmFormat")
   answer.formatted = text()
 
