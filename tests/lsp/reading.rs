@@ -121,7 +121,7 @@ fn colours_come_whole_in_part_and_as_a_difference() {
     let mut client = opened();
     let whole = client.ask("textDocument/semanticTokens/full", document());
     let data = whole["data"].as_array().expect("numbers").clone();
-    assert!(data.len() > 200 && data.len() % 5 == 0);
+    assert!(data.len() > 200 && data.len().is_multiple_of(5));
     let range = json!({ "start": { "line": 4, "character": 0 }, "end": { "line": 5, "character": 0 } });
     let part = client
         .ask("textDocument/semanticTokens/range", json!({ "textDocument": { "uri": URI }, "range": range }));

@@ -28,10 +28,17 @@ struct Member<'f> {
 }
 
 impl View<'_> {
-    /// A region, an obstacle or a jammer.
-    pub(super) fn set(&self, page: &mut Page, symbol: &Symbol, facts: &Facts, item: usize) {
+    /// A region, an obstacle or a jammer; of a family all members, or one.
+    pub(super) fn set(
+        &self,
+        page: &mut Page,
+        symbol: &Symbol,
+        facts: &Facts,
+        item: usize,
+        member: Option<&str>,
+    ) {
         let region = symbol.kind == SymbolKind::Region;
-        let members: Vec<Member> = if region {
+        let mut members: Vec<Member> = if region {
             facts.regions(Some(item)).map(|(_, r)| Member::of_region(r)).collect()
         } else {
             facts
@@ -39,6 +46,7 @@ impl View<'_> {
                 .map(|(_, b)| Member { name: &b.name, shape: &b.shape, sure: &b.shape })
                 .collect()
         };
+        members.retain(|m| member.is_none_or(|member| member == m.name));
         let opaque = facts.blockers(Some(item)).any(|(_, b)| b.kind == BlockerKind::OpaqueObstacle);
         let noun = if opaque { "opaque obstacle" } else { symbol.kind.noun() };
         page.say(format!("**{noun}**{}", family(facts, item, noun)));

@@ -25,7 +25,10 @@ impl View<'_> {
         page.code(&self.declaration(symbol));
         let facts = self.document.facts();
         match (facts, symbol.item) {
-            (Some(facts), Some(item)) => self.facts_of(&mut page, occurrence.symbol, symbol, facts, item),
+            (Some(facts), Some(item)) => {
+                let member = self.member(occurrence, facts);
+                self.facts_of(&mut page, occurrence.symbol, facts, item, member.as_deref());
+            }
             _ => page.say(format!("**{}**", symbol.kind.noun())),
         }
         page.doc(symbol.doc.as_deref());
@@ -64,15 +67,48 @@ impl View<'_> {
         text[..end].trim_end().to_string()
     }
 
-    fn facts_of(&self, page: &mut Page, id: SymbolId, symbol: &Symbol, facts: &Facts, item: usize) {
+    /// The member of a family that stands at a name, `cell[1,2]`, where it is always the same.
+    fn member(&self, occurrence: &Occurrence, facts: &Facts) -> Option<String> {
+        if occurrence.is_declaration() {
+            return None;
+        }
+        let text = &self.document.source.text;
+        let behind = text.get(occurrence.span.end as usize..)?;
+        let inside = behind.trim_start().strip_prefix('[')?;
+        let start = occurrence.span.end as usize + behind.len() - inside.len();
+        let mut depth = 0usize;
+        let closes = |c: char| {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' if depth > 0 => depth -= 1,
+                ']' => return true,
+                _ => {}
+            }
+            false
+        };
+        let list = inside.get(..inside.find(closes)?)?;
+        let mut at = start;
+        let index = |written: &str| {
+            let from = at + written.len() - written.trim_start().len();
+            at += written.len() + 1;
+            let values = facts.place(Span::new(from, from + written.trim().len()))?;
+            let [only] = &values.listed[..] else { return None };
+            (!values.more).then(|| only.to_string())
+        };
+        let indices: Option<Vec<String>> = list.split(',').map(index).collect();
+        Some(format!("{}[{}]", self.text(occurrence.span), indices?.join(",")))
+    }
+
+    fn facts_of(&self, page: &mut Page, id: SymbolId, facts: &Facts, item: usize, member: Option<&str>) {
+        let symbol = self.document.index().symbol(id);
         match symbol.kind {
             SymbolKind::Parameter | SymbolKind::Constant => self.constant(page, symbol, facts, item),
             SymbolKind::Region | SymbolKind::Obstacle | SymbolKind::Jammer => {
-                self.set(page, symbol, facts, item);
+                self.set(page, symbol, facts, item, member);
             }
-            SymbolKind::Base => self.base(page, facts, item),
+            SymbolKind::Base => self.base(page, facts, item, member),
             SymbolKind::Dynamics => self.model(page, facts, item),
-            SymbolKind::Robot => self.robot(page, facts, item),
+            SymbolKind::Robot => self.robot(page, facts, item, member),
             SymbolKind::Team => team(page, facts, item),
             SymbolKind::Goal | SymbolKind::Define => self.formula(page, symbol, facts, item),
             SymbolKind::State | SymbolKind::Input => self.signal(page, symbol, facts, item),
@@ -133,20 +169,22 @@ impl View<'_> {
         differs.then(|| format!("{} {text}", number::number(&(&quantity.number / &unit.scale))))
     }
 
-    fn base(&self, page: &mut Page, facts: &Facts, item: usize) {
+    fn base(&self, page: &mut Page, facts: &Facts, item: usize, member: Option<&str>) {
         let places: Vec<String> = facts
             .bases(Some(item))
+            .filter(|(_, b)| member.is_none_or(|member| member == b.name))
             .map(|(_, b)| format!("`{}` at {}", b.name, number::point(&b.position)))
             .collect();
         page.say(format!("**base station**{}", family(facts, item, "base")));
         page.say(list(&places));
     }
 
-    fn robot(&self, page: &mut Page, facts: &Facts, item: usize) {
+    fn robot(&self, page: &mut Page, facts: &Facts, item: usize, member: Option<&str>) {
         page.say(format!("**robot**{}", family(facts, item, "robot")));
         let mut model = None;
         let mut starts = Vec::new();
-        for (_, robot) in facts.robots(Some(item)) {
+        let wanted = |name: &str| member.is_none_or(|member| member == name);
+        for (_, robot) in facts.robots(Some(item)).filter(|(_, r)| wanted(&r.name)) {
             let Some(dynamics) = facts.dynamics().get(robot.dynamics) else { continue };
             model = Some(robot.dynamics);
             let at: Vec<_> = dynamics.position.iter().filter_map(|&s| robot.start.get(s).cloned()).collect();

@@ -152,6 +152,18 @@ fn robots_teams_and_bases_are_described() {
 }
 
 #[test]
+fn a_member_is_described_alone() {
+    let rest = "region a[i in 1..2, j in 1..2] = box (2 * i, 3 * j) .. (2 * i + 1, 3 * j + 1)
+        robot f[i in 1..2]: Rover at (i, 1) goal g: f[1 + 1] in a[2, 1] goal h: forall k in 1..2: f[k] in a[k, 1]";
+    let text = mission(rest);
+    let only = said(&text.replace("in a[2, 1]", "in $a[2, 1]")).expect("something");
+    assert!(only.contains("`a[2,1]` lies in (4, 3)") && !only.contains("`a[1,"), "{only}");
+    let only = said(&text.replace("g: f[1 + 1]", "g: $f[1 + 1]")).expect("something");
+    assert!(only.contains("`f[2]` starts at (2, 1)") && !only.contains("f[1]"), "{only}");
+    says(&text.replace("in a[k, 1]", "in $a[k, 1]"), &["`a[1,1]`", "`a[2,2]`"]);
+}
+
+#[test]
 fn goals_say_whom_they_concern() {
     let text = mission("region a = box (6, 6) .. (9, 9) goal $g: always eventually[1 s, 20 s] R1 in a");
     says(&text, &["speaks of `R1` in `a`", "Windows (a step is 0.5 s): `[1 s, 20 s]`: steps 2..40"]);
