@@ -178,6 +178,45 @@ fn nothing_is_without_a_group() {
     }
 }
 
+/// What goes on on further lines in every way, as `dosmc fmt` has it.
+const BROKEN_LINES: &str = "dosm 1
+robot R2: Rover at { px = 2.500000000000000000000000000, vx = 0.20000000000000000000000000 m/s,
+  py = 3.000000000000000000000000000000000000000000000000000000 m }
+team a = R1,
+  // one that comes later
+  R2
+let P =  // a table
+  [1, 2; 3, 4]
+dynamics Rover {
+  step 1 s
+  mode dry when { x >= 5;
+    // and not
+    y <=
+    3 } {
+    A = [0, 0;
+         0, 0]
+  }
+  // at the end
+  bound where { vx + vy <= 5000000000000000000000000000000000000000000; vx - vy >= -500000000000000000000000000;
+    vx <= 3 }
+  state
+    // to the east
+    px: m, vx: m/s
+}
+// of the radio
+connectivity {
+  hops <= 3
+  // in steps
+  every 2 s
+}
+goal x: (a and
+  b) or
+  // many
+  count(r in
+  all: r in b) = 1 and [][1,
+  2] p
+";
+
 /// The missions that `dosmc fmt` can lay out, as it does: what the compiler calls them, and their lines.
 fn laid_out() -> Vec<(PathBuf, Vec<String>)> {
     let folder = scratch("laid-out");
@@ -193,6 +232,9 @@ fn laid_out() -> Vec<(PathBuf, Vec<String>)> {
         fs::write(&file, &formatted.text).expect("it can be written");
         found.push((file, formatted.text.lines().map(str::to_owned).collect()));
     }
+    let file = folder.join("broken-lines.dosm");
+    fs::write(&file, BROKEN_LINES).expect("it can be written");
+    found.push((file, BROKEN_LINES.lines().map(str::to_owned).collect()));
     assert!(found.len() > 45, "only {}", found.len());
     found
 }
@@ -227,7 +269,8 @@ fn indentation_is_that_of_the_formatter() {
 }
 
 /// What is typed, and what then stands there.
-const TYPED: [(&str, &str); 6] = [
+const TYPED: [(&str, &str); 7] = [
+    ("goal a: p and\ngoal b: q", "goal a: p and\ngoal b: q"),
     (
         "dynamics Rover {\nstep 1 s\nintegrator 2\n}\nrobot",
         "dynamics Rover {\n  step 1 s\n  integrator 2\n}\nrobot",
