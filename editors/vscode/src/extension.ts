@@ -15,6 +15,9 @@ import { findProgram, notFound, Surroundings } from "./program";
 /** Where the guide says how to install the compiler. */
 const HOW_TO_INSTALL = "`cargo install --path .` in a clone of dosmc installs it.";
 
+/** The settings that the server is started with. */
+const SETTINGS = ["dosmc.path", "dosmc.arguments", "dosmc.environment"];
+
 let client: LanguageClient | undefined;
 let log: vscode.LogOutputChannel;
 let item: vscode.LanguageStatusItem;
@@ -36,7 +39,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     command("dosmc.restartServer", restart),
     command("dosmc.showLog", () => log.show()),
     vscode.workspace.onDidChangeConfiguration((change) => {
-      const ours = ["dosmc.path", "dosmc.environment"].some((key) => change.affectsConfiguration(key));
+      const ours = SETTINGS.some((key) => change.affectsConfiguration(key));
       if (ours) void restart();
     }),
     vscode.workspace.onDidGrantWorkspaceTrust(() => void restart()),
@@ -69,9 +72,9 @@ async function start(): Promise<void> {
     log.error(`${notFound(setting, found.looked)} Looked for:\n${found.looked.join("\n")}`);
     return missing(notFound(setting, found.looked));
   }
-  log.info(`starting ${found.program} lsp`);
   const environment = { ...process.env, ...settings.get<Record<string, string>>("environment", {}) };
-  const server: Executable = { command: found.program, args: ["lsp"], options: { env: environment } };
+  const given = settings.get<string[]>("arguments", []);
+  const server: Executable = { command: found.program, args: ["lsp", ...given], options: { env: environment } };
   const options: LanguageClientOptions = {
     documentSelector: [
       { scheme: "file", language: "dosm" },
@@ -83,6 +86,7 @@ async function start(): Promise<void> {
     // It is said below, with what can be done.
     initializationFailedHandler: () => false,
   };
+  log.info(`starting ${[server.command, ...(server.args ?? [])].join(" ")}`);
   client = new LanguageClient("dosmc", "dosmc", { run: server, debug: server }, options);
   client.onDidChangeState(({ newState }) => show(newState, found.program));
   await client.start();
