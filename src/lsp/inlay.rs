@@ -5,11 +5,12 @@ use lsp_types::{InlayHint, InlayHintLabel, InlayHintTooltip, Range};
 
 use super::Document;
 use super::number;
+use crate::check::typed::Signal;
 use crate::check::{Facts, Known};
 use crate::exact::Rational;
 use crate::quantity::Unit;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, FamilyName, Item, ItemKind};
+use crate::syntax::ast::{DynamicsItem, DynamicsKind, Expr, ExprKind, FamilyName, Item, ItemKind};
 
 /// The hints in a range, in the order of their places.
 pub fn hints(document: &Document, range: Range) -> Vec<InlayHint> {
@@ -57,6 +58,7 @@ fn of_item(document: &Document, facts: &Facts, place: usize, item: &Item) -> Vec
         ItemKind::Jammer { name, .. } => family(document, facts, place, name, "jammer"),
         ItemKind::Base { name, .. } => family(document, facts, place, name, "base"),
         ItemKind::Robot { name, .. } => family(document, facts, place, name, "robot"),
+        ItemKind::Dynamics { items, .. } => signals(facts, place, items).into_iter().collect(),
         ItemKind::Goal { .. } | ItemKind::Define { .. } | ItemKind::Connectivity(_) => {
             windows(document, facts, item.span)
         }
@@ -72,7 +74,7 @@ fn constant(facts: &Facts, place: usize, value: &Expr) -> Option<Hint> {
     let plain = plain(value).is_some_and(|number| number == quantity.number);
     (!plain).then(|| Hint {
         at: value.span.end,
-        label: format!("= {}", number::known(known)),
+        label: number::equals(&number::known(known)),
         tooltip: format!("The value: exactly {}{}", quantity.number, number::unit(quantity.dimension)),
     })
 }
@@ -92,6 +94,19 @@ fn plain(expr: &Expr) -> Option<Rational> {
             _ => return None,
         }
     }
+}
+
+/// The names of the states and inputs that an `integrator` brings along.
+fn signals(facts: &Facts, place: usize, items: &[DynamicsItem]) -> Option<Hint> {
+    let item = items.iter().find(|item| matches!(item.kind, DynamicsKind::Integrator(_)))?;
+    let (_, model) = facts.model(place)?;
+    let names = |list: &[Signal]| list.iter().map(|s| s.name.as_str()).collect::<Vec<_>>().join(", ");
+    let (states, inputs) = (names(&model.states), names(&model.inputs));
+    Some(Hint {
+        at: item.span.end,
+        label: format!("{states}; {inputs}"),
+        tooltip: format!("The states {states} and the inputs {inputs}"),
+    })
 }
 
 /// How many members a family has, where that isn't plain to see.
@@ -181,8 +196,9 @@ goal h: always[0, 9] forall k in 1..2: eventually[k, 2 * k] true
             all,
             [
                 "2:22 = 3.5 m",
-                "4:21 = ≈ 0.333333 s",
+                "4:21 ≈ 0.333333 s",
                 "7:33 4 regions",
+                "11:40 px, py; vx, vy",
                 "12:22 2 robots",
                 "13:24 = 4 steps",
                 "14:38 = 2..40 steps",
@@ -194,7 +210,7 @@ goal h: always[0, 9] forall k in 1..2: eventually[k, 2 * k] true
     #[test]
     fn only_what_is_asked_for_is_shown() {
         let document = document(MISSION, &[]);
-        assert_eq!(shown(&document, 7, 12), ["7:33 4 regions"]);
+        assert_eq!(shown(&document, 7, 11), ["7:33 4 regions"]);
         assert_eq!(shown(&document, 0, 1), [""; 0]);
         assert_eq!(shown(&document, 14, 15), ["14:38 = 2..40 steps"]);
     }
@@ -203,7 +219,7 @@ goal h: always[0, 9] forall k in 1..2: eventually[k, 2 * k] true
     fn a_mission_with_errors_keeps_what_is_known() {
         let text = MISSION.replace("box (0, 0)", "bo (0, 0)").replace("radius 1\nbase", "radius -1\nbase");
         let all = shown(&document(&text, &[]), 0, 99);
-        assert_eq!(all.len(), 7, "{all:?}");
+        assert_eq!(all.len(), 8, "{all:?}");
         assert_eq!(shown(&document("goal", &[]), 0, 9), [""; 0]);
     }
 

@@ -51,6 +51,11 @@ fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
+/// A value behind `=`, unless it says `≈` itself.
+pub fn equals(value: &str) -> String {
+    if value.starts_with('≈') { value.to_string() } else { format!("= {value}") }
+}
+
 /// A number with its SI unit, which plain numbers don't have.
 pub fn quantity(x: &Rational, dimension: Dimension) -> String {
     format!("{}{}", number(x), unit(dimension))

@@ -98,7 +98,7 @@ fn hints_are_shown_in_the_range_asked_for() {
         let label = |hint: &Value| hint["label"].as_str().expect("a text").to_string();
         answer.as_array().expect("a list").iter().map(label).collect()
     };
-    assert_eq!(hints(0, 99), ["= 3.5 m", "2 regions", "2 robots", "= 0..40 steps"]);
+    assert_eq!(hints(0, 99), ["= 3.5 m", "2 regions", "px, vx, py, vy; ax, ay", "2 robots", "= 0..40 steps"]);
     assert_eq!(hints(4, 6), ["2 regions"]);
     client.end();
 }

@@ -1,13 +1,15 @@
 //! Names of the mission, kind by kind.
 
 use super::{Page, View};
-use crate::check::{Facts, Known};
+use crate::check::{Facts, Known, typed};
 use crate::entity::EntityId;
+use crate::exact::Rational;
 use crate::lsp::index::{Occurrence, Symbol, SymbolId, SymbolKind};
 use crate::lsp::number;
 use crate::quantity::Unit;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind};
+use crate::syntax::ast::{DynamicsKind, Expr, ExprKind, Item, ItemKind};
+use crate::syntax::glossary;
 
 /// The most names that are listed.
 const MOST_NAMES: usize = 8;
@@ -112,7 +114,7 @@ impl View<'_> {
             SymbolKind::Team => team(page, facts, item),
             SymbolKind::Goal | SymbolKind::Define => self.formula(page, symbol, facts, item),
             SymbolKind::State | SymbolKind::Input => self.signal(page, symbol, facts, item),
-            SymbolKind::Matrix | SymbolKind::Mode => self.part(page, symbol),
+            SymbolKind::Matrix | SymbolKind::Mode => self.part(page, symbol, facts, item),
             SymbolKind::Mission => page.say("**mission**: the name that plans and files bear."),
             SymbolKind::IndexVariable => self.variable(page, symbol, facts),
             SymbolKind::RobotVariable => {
@@ -140,7 +142,7 @@ impl View<'_> {
         let separator = if what.is_empty() { "" } else { " · " };
         let other = self.in_written_unit(item, known).map_or_else(String::new, |text| format!(" = `{text}`"));
         let value = match known {
-            Known::Scalar(_) => format!("`= {}`{other}", number::known(known)),
+            Known::Scalar(_) => format!("`{}`{other}", number::equals(&number::known(known))),
             Known::Table(_) => number::known(known),
         };
         page.say(format!("**{}** · {what}{separator}{value}{hint}", symbol.kind.noun()));
@@ -232,16 +234,38 @@ impl View<'_> {
         }
     }
 
-    fn part(&self, page: &mut Page, symbol: &Symbol) {
+    fn part(&self, page: &mut Page, symbol: &Symbol, facts: &Facts, item: usize) {
         let index = self.document.index();
-        let owner = symbol.parent.map_or_else(String::new, |id| format!(" of `{}`", index.symbol(id).name));
-        let meaning = crate::syntax::glossary::entry(if symbol.kind == SymbolKind::Mode {
-            "mode"
-        } else {
-            &symbol.name
-        });
-        page.say(format!("**{}**{owner}", symbol.kind.noun()));
-        page.say(meaning.map_or("", |m| m.meaning));
+        let owner = symbol.parent.map(|id| index.symbol(id));
+        let of = owner.map_or_else(String::new, |owner| format!(" of `{}`", owner.name));
+        page.say(format!("**{}**{of}", symbol.kind.noun()));
+        let word = if symbol.kind == SymbolKind::Mode { "mode" } else { symbol.name.as_str() };
+        page.say(glossary::entry(word).map_or("", |entry| entry.meaning));
+        if owner.is_some_and(|owner| owner.kind == SymbolKind::Dynamics) {
+            self.held(page, symbol, facts, item);
+        }
+    }
+
+    /// What a matrix of a `continuous` model becomes over a step.
+    fn held(&self, page: &mut Page, symbol: &Symbol, facts: &Facts, item: usize) {
+        let items = match self.document.file().and_then(|file| file.items.get(item)).map(|item| &item.kind) {
+            Some(ItemKind::Dynamics { items, .. }) => items,
+            _ => return,
+        };
+        let continuous = items.iter().any(|item| matches!(item.kind, DynamicsKind::Continuous));
+        let Some((_, model)) = facts.model(item).filter(|_| continuous) else { return };
+        let typed::Motion::Matrices { a, b, c, .. } = &model.motion else { return };
+        let column: Vec<Vec<Rational>> = c.iter().map(|x| vec![x.clone()]).collect();
+        let rows = match symbol.name.as_str() {
+            "A" => a,
+            "B" => b,
+            _ => &column,
+        };
+        page.say(format!("Held over a step of {} s:", number::number(&model.step)));
+        let row = |row: &Vec<Rational>| {
+            row.iter().take(MOST_ENTRIES).map(|x| number::measure(x.to_f64())).collect()
+        };
+        page.columns(&rows.iter().take(MOST_ROWS).map(row).collect::<Vec<_>>());
     }
 
     fn variable(&self, page: &mut Page, symbol: &Symbol, facts: &Facts) {

@@ -64,7 +64,7 @@ fn constants_show_their_values() {
     says("dosm 1 let n = 3 let a = 2 * $n", &["let n = 3", "**constant** · a number · `= 3`"]);
     says("dosm 1 let $far = 2 m + 50 cm", &["a length (m)", "`= 2.5 m`", "= `250 cm`"]);
     says("dosm 1 let $t = [1, 2; 3, 4] m", &["a table of 2 × 2, in m", "1  2\n3  4"]);
-    says("dosm 1 let $third = 1 / 3", &["≈ 0.333333"]);
+    says("dosm 1 let $third = 1 / 3", &["· `≈ 0.333333`"]);
     says("dosm 1 let $bad = 1 m + 1", &["**constant** without a value"]);
     says("dosm 1\n/// So *far*.\nlet $far = 2 m", &["---\n\nSo *far*."]);
 }
@@ -90,6 +90,24 @@ fn a_model_shows_its_tube() {
     says(&signal, &["**state** of `Rover`", "state  unit  bound    disturbance  tube\nvx     m/s   [-4, 4]"]);
     let signal = mission("").replace("bound ax", "bound $ax");
     says(&signal, &["**input** of `Rover`", "feedback\nax     m/s^2  [-4, 4]    ± 1.6"]);
+}
+
+#[test]
+fn a_continuous_model_shows_what_it_becomes() {
+    let text = mission("")
+        .replace(
+            "A = [1, 0.5, 0, 0; 0, 1, 0, 0; 0, 0, 1, 0.5; 0, 0, 0, 1]",
+            "continuous
+        A = [0, 1, 0, 0; 0, 0, 0, 0; 0, 0, 0, 1; 0, 0, 0, 0]",
+        )
+        .replace("B = [0.125, 0; 0.5, 0; 0, 0.125; 0, 0.5]", "B = [0, 0; 1, 0; 0, 0; 0, 1]");
+    says(
+        &text.replace("A =", "$A ="),
+        &["**matrix** of `Rover`", "Held over a step of 0.5 s:", "1  0.5  0  0\n0  1"],
+    );
+    says(&text.replace("B =", "$B ="), &["0.125  0\n0.5"]);
+    let discrete = said(&mission("").replace("A =", "$A =")).expect("something");
+    assert!(!discrete.contains("Held"), "{discrete}");
 }
 
 #[test]

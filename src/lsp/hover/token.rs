@@ -99,7 +99,7 @@ impl View<'_> {
         let mut page = Page::default();
         if let Some((whole, values)) = self.computed(span) {
             page.code(self.text(whole));
-            page.say(format!("`= {}`", number::values(values)));
+            page.say(format!("`{}`", number::equals(&number::values(values))));
         }
         page.say(entry.meaning);
         Some(page.markdown())
