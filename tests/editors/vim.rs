@@ -388,11 +388,14 @@ fn commands_run_the_program() {
     fs::write(&file, untidy).expect("it can be written");
     let broken = folder.join("broken.dosm");
     fs::copy(package("tests/missions/err/check_unknown_region.dosm"), &broken).expect("it can be copied");
+    let mission = folder.join("a mission.dosm");
+    fs::copy(package("examples/first.dosm"), &mission).expect("it can be copied");
     let questions = [
         json!({"what": "Formatted", "file": file, "program": program}),
         json!({"what": "Reformatted", "file": file, "program": program}),
         json!({"what": "Made", "file": broken, "program": program}),
         json!({"what": "Explained", "file": broken, "program": program, "line": 14}),
+        json!({"what": "Solved", "file": mission, "program": program, "arguments": "--horizon 1..9"}),
     ];
     let tidy =
         "dosm 1\nmission a\n\n// a comment that is\nworkspace box (0, 0) .. (9, 9)\n/* kept */\nparam b = 1";
@@ -405,5 +408,8 @@ fn commands_run_the_program() {
         assert_eq!(text(&answers[1]), tidy, "{editor:?}");
         assert_eq!(answers[2][0], json!([14, 32, "E"]), "{editor:?}");
         assert!(text(&answers[3]).starts_with("dosm::check::unknown_region"), "{editor:?}: {}", answers[3]);
+        let plan = folder.join("out/a mission/plan.json");
+        assert!(plan.is_file(), "{editor:?}: {}", text(&answers[4]));
+        fs::remove_file(plan).expect("it can be removed");
     }
 }

@@ -78,6 +78,14 @@ function! dosm#formatexpr() abort
   return 0
 endfunction
 
+" The command that plans the buffer's mission. What it writes goes where the language server's plans go, unless
+" the arguments say where.
+function! dosm#solve_command(arguments) abort
+  let l:into = a:arguments =~# '\%(^\|\s\)\%(-o\|--output\)'
+    \ ? '' : ' --output ' . shellescape(expand('%:p:h') . '/out/' . expand('%:t:r'))
+  return shellescape(dosm#program()) . ' solve' . l:into . ' ' . a:arguments . ' ' . shellescape(expand('%:p'))
+endfunction
+
 " Plans the mission, with what is given as further arguments: by the language server where one is attached and
 " nothing is given, else in a terminal.
 function! dosm#solve(arguments) abort
@@ -85,7 +93,7 @@ function! dosm#solve(arguments) abort
     return
   endif
   update
-  let l:command = shellescape(dosm#program()) . ' solve ' . a:arguments . ' ' . shellescape(expand('%:p'))
+  let l:command = dosm#solve_command(a:arguments)
   if has('nvim')
     execute 'botright 12split | terminal' l:command
     " Its end is what is looked at.

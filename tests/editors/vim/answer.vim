@@ -98,6 +98,11 @@ function! Explained(ask) abort
   return getline(1, '$')
 endfunction
 
+" What the terminal of `:DosmSolve` shows.
+function! Solved(ask) abort
+  return systemlist(dosm#solve_command(a:ask.arguments))
+endfunction
+
 function! Made(ask) abort
   silent make!
   let l:errors = filter(getqflist(), 'v:val.valid')
