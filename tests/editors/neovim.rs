@@ -159,6 +159,15 @@ fn the_language_server_serves_a_whole_session() {
 }
 
 #[test]
+fn one_server_is_enough() {
+    let file = mission("neovim-enabled");
+    let question = json!({"what": "enabled", "file": file});
+    let Some(answer) = ask("enabled", env!("CARGO_BIN_EXE_dosmc"), &question) else { return };
+    assert_eq!(answer["servers"], 1);
+    assert_eq!(answer["command"], true, "it has the plug-in's keys and commands");
+}
+
+#[test]
 fn without_the_program_something_is_said() {
     let file = mission("neovim-missing");
     let Some(answer) = ask("missing", "no-such-program", &json!({"what": "missing", "file": file})) else {

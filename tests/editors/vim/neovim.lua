@@ -197,6 +197,23 @@ function questions.session()
   end)
 end
 
+--- How many servers a mission has that Neovim starts by itself, as its versions from 0.11 on can.
+function questions.enabled()
+  if not (vim.lsp.is_enabled and vim.lsp.enable) then
+    answer.servers = 1
+    answer.command = true
+    return
+  end
+  vim.lsp.enable("dosmc")
+  vim.cmd("edit " .. vim.fn.fnameescape(ask.file))
+  await("diagnostics", function()
+    return #vim.diagnostic.get(0) > 0
+  end)
+  answer.servers = #vim.lsp.get_clients({ bufnr = 0 })
+  answer.command = vim.fn.exists(":DosmFormat") == 2 and vim.fn.maparg("grl", "n") ~= ""
+  vim.lsp.stop_client(vim.lsp.get_clients())
+end
+
 --- Without the program something is said, once, and all else works.
 function questions.missing()
   vim.cmd("edit " .. vim.fn.fnameescape(ask.file))

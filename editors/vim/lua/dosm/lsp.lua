@@ -126,6 +126,19 @@ function M.start(buffer, options)
     vim.notify_once("dosmc is not found, so missions have no language server: put it on the PATH, or set vim.g.dosm_program", vim.log.levels.WARN)
     return
   end
+  if vim.lsp.is_enabled and vim.lsp.is_enabled("dosmc") then
+    -- Neovim starts it by itself: `vim.lsp.enable("dosmc")`.
+    vim.api.nvim_create_autocmd("LspAttach", {
+      buffer = buffer,
+      callback = function(event)
+        local client = vim.lsp.get_client_by_id(event.data.client_id)
+        if client and client.name == "dosmc" then
+          attached(client, buffer, options)
+        end
+      end,
+    })
+    return
+  end
   local config = {
     name = "dosmc",
     cmd = vim.list_extend({ options.program, "lsp" }, options.arguments),
