@@ -4,11 +4,13 @@
 //! Each phase keeps one small function a diagnostic beside its own code; nothing here knows them.
 
 mod excerpt;
+mod fix;
 pub mod json;
 mod lines;
 mod printable;
 pub mod render;
 
+pub use fix::{Edit, Fix};
 pub use printable::printable;
 
 use crate::source::Span;
@@ -44,6 +46,8 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// The mend, where one is known.
     pub help: Option<String>,
+    /// Mends as edits, the likeliest first.
+    pub fixes: Vec<Fix>,
 }
 
 impl Diagnostic {
@@ -60,6 +64,7 @@ impl Diagnostic {
             message: message.into(),
             labels: vec![Label { span, text: label.into() }],
             help: None,
+            fixes: Vec::new(),
         }
     }
 
@@ -83,6 +88,23 @@ impl Diagnostic {
     pub fn with_help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(help.into());
         self
+    }
+
+    /// The diagnostic with edits that surely mend it.
+    pub fn mended_by(mut self, title: impl Into<String>, edits: Vec<Edit>) -> Diagnostic {
+        self.fixes.push(Fix { title: title.into(), edits, is_sure: true });
+        self
+    }
+
+    /// The diagnostic with edits that may be what is meant.
+    pub fn perhaps_by(mut self, title: impl Into<String>, edits: Vec<Edit>) -> Diagnostic {
+        self.fixes.push(Fix { title: title.into(), edits, is_sure: false });
+        self
+    }
+
+    /// The diagnostic with a word that is surely meant in the place of another.
+    pub fn meant(self, span: Span, word: &str) -> Diagnostic {
+        self.mended_by(format!("write `{word}`"), vec![Edit::Replace(span, word.into())])
     }
 }
 

@@ -121,7 +121,8 @@ impl Checker<'_> {
         let hi = self.quantity_in(&interval.to, unit, &scope, signal.dimension);
         let (lo, hi) = (lo?, hi?);
         if lo > hi {
-            let [from, to] = [&interval.from, &interval.to].map(|end| self.source.slice(end.span));
+            let ends = [&interval.from, &interval.to].map(|end| (self.source.slice(end.span), end.span));
+            let [from, to] = ends;
             return Err(self.report(messages::empty_interval(interval.span, from, to)));
         }
         Ok(typed::Interval { lo, hi, span })

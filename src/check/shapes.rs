@@ -246,7 +246,7 @@ impl Checker<'_> {
             return Err(self.report(messages::flat_shape(span, "two of the box's sides coincide")));
         }
         if lo.iter().zip(&hi).any(|(a, b)| a > b) {
-            return Err(self.report(messages::box_corners_swapped((p.span, q.span), &lo, &hi)));
+            return Err(self.report(messages::box_corners_swapped((p, q), &lo, &hi)));
         }
         Ok(Polytope::from_box(&lo, &hi))
     }

@@ -33,7 +33,7 @@ impl Checker<'_> {
             }
         }
         if m > n {
-            return Err(self.report(messages::reversed_window(window.span, &m, &n)));
+            return Err(self.report(messages::reversed_window(window, &m, &n)));
         }
         let short = |number: &Rational| number.to_i64().filter(|n| *n <= MAX_STEPS);
         match (short(&m), short(&n)) {

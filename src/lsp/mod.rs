@@ -9,6 +9,7 @@
 //! one text. Each feature is a file with functions from a document and a place to `lsp_types`; `requests`
 //! is the table of them. Files, clock and planner are the [`Host`]'s.
 
+mod actions;
 mod capabilities;
 mod commands;
 mod completion;

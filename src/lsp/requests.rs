@@ -11,8 +11,8 @@ use super::document::Document;
 use super::queue::Job;
 use super::session::{Session, refusal};
 use super::{
-    completion, folding, formatting, highlight, hover, inlay, lens, navigation, outline, rename, selection,
-    semantic, signature, symbols,
+    actions, completion, folding, formatting, highlight, hover, inlay, lens, navigation, outline, rename,
+    selection, semantic, signature, symbols,
 };
 
 /// The answer to a request.
@@ -39,6 +39,11 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
             about!(request::Completion, |p| p.text_document_position.text_document, |d| {
                 let typed = p.context.as_ref().and_then(|c| c.trigger_character.as_deref());
                 completion::complete(&d, p.text_document_position.position, typed, session.client)
+            })
+        }
+        request::CodeActionRequest::METHOD => {
+            about!(request::CodeActionRequest, |p| p.text_document, |d| {
+                Some(actions::actions(&d, p.range, &p.context, session.client))
             })
         }
         request::DocumentSymbolRequest::METHOD => {

@@ -38,6 +38,8 @@ pub struct Client {
     pub code_links: bool,
     /// Whether it asks again for lenses when told to.
     pub refresh_lenses: bool,
+    /// Whether it takes actions that are more than commands.
+    pub action_literals: bool,
     /// Whether it shows an outline as a tree.
     pub symbol_trees: bool,
     /// Whether a completion may have places to fill in.
@@ -67,6 +69,9 @@ impl Client {
                 .as_ref()
                 .and_then(|w| w.code_lens.as_ref()?.refresh_support)
                 .unwrap_or(false),
+            action_literals: text
+                .and_then(|t| t.code_action.as_ref()?.code_action_literal_support.as_ref())
+                .is_some(),
             symbol_trees: text
                 .and_then(|t| t.document_symbol.as_ref()?.hierarchical_document_symbol_support)
                 .unwrap_or(false),

@@ -1,6 +1,6 @@
 //! The diagnostics of the syntax phase, one small function each.
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::source::Span;
 use crate::syntax::characters::shown;
@@ -85,19 +85,27 @@ pub(super) fn hidden_character(span: Span, character: char, name: &str) -> Diagn
         "here",
     )
     .with_help("remove it, or put an ordinary blank in its place")
+    .mended_by("put a blank in its place", vec![Edit::Replace(span, " ".into())])
 }
 
 pub(super) fn lookalike(span: Span, character: char, meant: &str) -> Diagnostic {
-    Diagnostic::error(
+    let diagnostic = Diagnostic::error(
         "dosm::syntax::lookalike",
         format!("`{character}` (U+{:04X}) is no sign of the language", character as u32),
         span,
         "",
-    )
-    .with_help(match meant {
-        "\"" => "there are no quotation marks in missions".to_owned(),
-        _ => format!("write `{meant}`"),
-    })
+    );
+    with_meant(diagnostic, span, meant)
+}
+
+/// With what the language writes for a character, where it has something like it.
+fn with_meant(diagnostic: Diagnostic, span: Span, meant: &str) -> Diagnostic {
+    if meant == "\"" {
+        return diagnostic
+            .with_help("there are no quotation marks in missions")
+            .mended_by("remove it", vec![Edit::Remove(span)]);
+    }
+    diagnostic.with_help(format!("write `{meant}`")).meant(span, meant)
 }
 
 pub(super) fn foreign_letter(span: Span, character: char) -> Diagnostic {
@@ -117,6 +125,7 @@ pub(super) fn unknown_character(span: Span, character: char) -> Diagnostic {
         span,
         "",
     )
+    .perhaps_by("remove it", vec![Edit::Remove(span)])
 }
 
 pub(super) fn unclosed_comment(span: Span) -> Diagnostic {
@@ -135,9 +144,21 @@ pub(super) fn bracket(bracket: Bracket, end: Span) -> Diagnostic {
             "opened here",
         )
         .with_label(end, "not closed up to here")
+        .perhaps_by("close it here", closed(sign, end))
     } else {
         Diagnostic::error("dosm::syntax::unopened_bracket", format!("`{sign}` closes nothing"), span, "")
+            .perhaps_by("remove it", vec![Edit::Remove(span)])
     }
+}
+
+/// The partner of an opening bracket, before what can't be in it.
+fn closed(sign: char, end: Span) -> Vec<Edit> {
+    let partner = match sign {
+        '(' => ")",
+        '[' => "]",
+        _ => "}",
+    };
+    vec![Edit::Append(Span { end: end.start, ..end }, partner.into())]
 }
 
 pub(super) fn missing_edition(span: Span) -> Diagnostic {
@@ -148,6 +169,7 @@ pub(super) fn missing_edition(span: Span) -> Diagnostic {
         "something else stands first",
     )
     .with_help("begin the file with `dosm 1`")
+    .mended_by("write `dosm 1`", vec![Edit::Replace(Span { end: span.start, ..span }, "dosm 1\n\n".into())])
 }
 
 pub(super) fn unknown_edition(span: Span, value: &Rational) -> Diagnostic {
@@ -158,6 +180,7 @@ pub(super) fn unknown_edition(span: Span, value: &Rational) -> Diagnostic {
         "this version knows edition 1",
     )
     .with_help("write `dosm 1`")
+    .meant(span, "1")
 }
 
 pub(super) fn number_range(span: Span) -> Diagnostic {
@@ -187,7 +210,7 @@ pub(super) fn unit_exponent(span: Span) -> Diagnostic {
     )
 }
 
-pub(super) fn unit_in_exponent(span: Span, power: &str, unit: &str) -> Diagnostic {
+pub(super) fn unit_in_exponent(span: Span, inside: Span, power: &str, unit: &str) -> Diagnostic {
     Diagnostic::error(
         "dosm::syntax::unit_in_exponent",
         "the unit belongs to the exponent, since units bind tighter than every operator",
@@ -195,6 +218,13 @@ pub(super) fn unit_in_exponent(span: Span, power: &str, unit: &str) -> Diagnosti
         "an exponent with a unit",
     )
     .with_help(format!("write `({}) {}`", shown(power), shown(unit)))
+    .mended_by("put the power in brackets", in_brackets(inside))
+}
+
+/// Brackets around a place.
+fn in_brackets(inside: Span) -> Vec<Edit> {
+    let start = Span { end: inside.start, ..inside };
+    vec![Edit::Replace(start, "(".into()), Edit::Append(inside, ")".into())]
 }
 
 pub(super) fn unit_twice(inner: Span, outer: Span) -> Diagnostic {
@@ -206,11 +236,13 @@ pub(super) fn unit_twice(inner: Span, outer: Span) -> Diagnostic {
     )
     .with_label(inner, "the first one")
     .with_help("keep one of them")
+    .perhaps_by("remove the second one", vec![Edit::Remove(outer)])
 }
 
 pub(super) fn window_on_next(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::syntax::window_on_next", "`next` takes no window", span, "this window")
         .with_help("`next` is one step; for the step n write `always[n, n]` or `eventually[n, n]`")
+        .perhaps_by("remove the window", vec![Edit::Remove(span)])
 }
 
 pub(super) fn missing_comma(span: Span) -> Diagnostic {
@@ -218,6 +250,7 @@ pub(super) fn missing_comma(span: Span) -> Diagnostic {
         .with_help(
             "entries are separated by commas, rows by `;`: `[0, 1; 1, 0]`; a difference is written `a - b`",
         )
+        .mended_by("write a comma", vec![Edit::Append(Span { end: span.start, ..span }, ",".into())])
 }
 
 pub(super) fn unreadable(span: Span) -> Diagnostic {
@@ -236,6 +269,7 @@ pub(super) fn reserved_word(span: Span, word: &str) -> Diagnostic {
         "a name is expected here",
     )
     .with_help(format!("choose another name, such as `{}`", other_name(word)))
+    .perhaps_by(format!("write `{}`", other_name(word)), vec![Edit::Replace(span, other_name(word))])
 }
 
 /// The word that an operator's letter stands for.
@@ -260,6 +294,7 @@ fn other_name(word: &str) -> String {
 pub(super) fn double_equals(span: Span) -> Diagnostic {
     Diagnostic::error("dosm::syntax::double_equals", "`==` is no operator", span, "")
         .with_help("equality is written `=`")
+        .meant(span, "=")
 }
 
 pub(super) fn number_form(span: Span, mend: Option<String>) -> Diagnostic {
@@ -285,11 +320,13 @@ pub(super) fn unit_after_name(span: Span, name: &str, unit: &str) -> Diagnostic 
         "this unit",
     )
     .with_help(format!("write `({name}) {unit}` if `{name}` has no unit itself, else leave the unit out"))
+    .perhaps_by(format!("remove `{unit}`"), vec![Edit::Remove(span)])
 }
 
 pub(super) fn unit_with_blanks(span: Span, left: &str, sign: &str, right: &str) -> Diagnostic {
     Diagnostic::error("dosm::syntax::unit_with_blanks", "units are written without blanks inside", span, "")
         .with_help(format!("write `{left}{sign}{right}`"))
+        .mended_by(format!("write `{left}{sign}{right}`"), vec![Edit::Tighten(span)])
 }
 
 pub(super) fn chained_comparison(span: Span) -> Diagnostic {

@@ -101,7 +101,7 @@ pub(super) fn explain(failure: &Failure, text: &str, around: &Surroundings) -> D
     let message = format!("expected {}, found {}", alternatives(&failure.expected), seen(found, around.next));
     let plain = Diagnostic::error("dosm::syntax::expected", message, span, "unexpected");
     match mend::help(&case) {
-        Some(help) => plain.with_help(help),
+        Some(help) => mend::with_fix(&case, plain.with_help(help)),
         None => plain,
     }
 }

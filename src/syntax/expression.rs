@@ -167,7 +167,9 @@ impl Builder<'_> {
         let (start, end) = (base.map_or(0, |base| base.as_span().start()), number.as_span().end());
         let power = number.get_input().get(start..end).unwrap_or("");
         let span = self.span(&quantity);
-        self.report(error::unit_in_exponent(span, power, unit.as_str()));
+        let begin = base.map_or(span, |base| self.span(base));
+        let inside = Span { start: begin.start, end: self.span(&number).end };
+        self.report(error::unit_in_exponent(span, inside, power, unit.as_str()));
     }
 
     /// An operand without brackets.

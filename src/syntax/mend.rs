@@ -1,6 +1,6 @@
 //! Mistakes whose mend is known, recognised at the place where the parser stopped.
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::source::Span;
 use crate::syntax::error;
 use crate::syntax::expected::{Failure, is_word, token_at};
@@ -111,6 +111,45 @@ pub(super) fn help(case: &Case) -> Option<String> {
     Some(text.to_owned())
 }
 
+/// The mend of [`help`] as an edit, where it can be made without knowing more.
+pub(super) fn with_fix(case: &Case, diagnostic: Diagnostic) -> Diagnostic {
+    let found = case.found;
+    let written = |word: &str| diagnostic.clone().meant(case.span, word);
+    let left_out =
+        || diagnostic.clone().mended_by(format!("leave `{found}` out"), vec![Edit::Remove(case.span)]);
+    let ends = case.failure.expects(Rule::EOI);
+    match found {
+        "&" => written("and"),
+        "|" => written("or"),
+        "~" => written("not"),
+        "=>" | "implies" => written("->"),
+        "<=>" | "iff" => written("<->"),
+        ":=" => written("="),
+        "*" if case.before().ends_with('*') => diagnostic
+            .mended_by("write `^`", vec![Edit::Replace(case.place_of_last(1).to(case.span), "^".into())]),
+        ";" if ends => left_out(),
+        "=" if case.failure.expects(Rule::expression) => left_out(),
+        "," if case.failure.expects(Rule::kw_radius) => left_out(),
+        "<" if case.last_is("hops") => written("<="),
+        _ if case.last_is("hops") && case.failure.expects(Rule::at_most) => {
+            let place = Span { end: case.span.start, ..case.span };
+            diagnostic.mended_by("write `<=`", vec![Edit::Replace(place, "<= ".into())])
+        }
+        "<" | "<=" | "=" if case.last_is("range") => left_out(),
+        word if is_word(word) && !is_reserved(word) => match case.operator_meant() {
+            Some((other, own)) => {
+                let edits = vec![Edit::Replace(case.place_of_last(other.len()), own.clone())];
+                diagnostic.mended_by(format!("write `{own}`"), edits)
+            }
+            None => match case.word_meant() {
+                Some(near) => written(&near),
+                None => diagnostic,
+            },
+        },
+        _ => diagnostic,
+    }
+}
+
 impl Case<'_> {
     /// What stands before the place, without the blanks at its end.
     fn before(&self) -> &str {
@@ -162,6 +201,12 @@ impl Case<'_> {
 
     /// A mend for an operator of another language, or in capitals, that was taken for a name.
     fn help_for_operator(&self) -> Option<String> {
+        let (word, own) = self.operator_meant()?;
+        Some(format!("did you mean `{own}` for `{word}`?"))
+    }
+
+    /// The operator of another language, or in capitals, that was taken for a name, and ours.
+    fn operator_meant(&self) -> Option<(&str, String)> {
         if !self.failure.expects(Rule::connective) {
             return None;
         }
@@ -169,7 +214,13 @@ impl Case<'_> {
         let lower = word.to_ascii_lowercase();
         let own = OPERATORS.iter().find(|(other, _)| *other == lower).map(|(_, own)| *own);
         let capital = lower != word && is_reserved(&lower) && lower.len() > 1;
-        own.or(capital.then_some(lower.as_str())).map(|own| format!("did you mean `{own}` for `{word}`?"))
+        own.or(capital.then_some(lower.as_str())).map(|own| (word, own.to_owned()))
+    }
+
+    /// The word of the language that is meant by the one found, as the help for it says.
+    fn word_meant(&self) -> Option<String> {
+        let help = self.help_for_word()?;
+        help.strip_prefix("did you mean `")?.strip_suffix("`?").map(str::to_owned)
     }
 
     /// A mend for a word that is no word of the language.
@@ -248,8 +299,13 @@ fn number_form(case: &Case) -> Option<Diagnostic> {
             (whole, false) if !whole.is_empty() && !whole.contains('.') => Some(format!("write `{whole}`")),
             _ => None,
         };
+        let form = |diagnostic: Diagnostic| match &mend {
+            Some(mend) => diagnostic
+                .meant((case.place)(start, end), mend.trim_start_matches("write ").trim_matches('`')),
+            None => diagnostic,
+        };
         return (digit_follows || !run.is_empty())
-            .then(|| error::number_form((case.place)(start, end), mend));
+            .then(|| form(error::number_form((case.place)(start, end), mend.clone())));
     }
     let touching = case.touches() && case.found.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
     let run = trailing_number(case.before());

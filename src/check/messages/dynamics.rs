@@ -2,7 +2,7 @@
 
 use crate::check::names::nearest;
 use crate::check::typed::Signal;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::quantity::Dimension;
 use crate::source::Span;
@@ -12,6 +12,7 @@ pub(in crate::check) fn missing_step(name: &Name) -> Diagnostic {
     let message = format!("the model `{}` has no sampling time", name.text);
     Diagnostic::error("dosm::check::missing_step", message, name.span, "`step` is missing")
         .with_help("add an item such as `step 0.5 s`")
+        .perhaps_by("add `step 0.5 s`", vec![Edit::IntoBlock(name.span, "step 0.5 s".into())])
 }
 
 pub(in crate::check) fn different_steps(
@@ -23,6 +24,14 @@ pub(in crate::check) fn different_steps(
     Diagnostic::error("dosm::check::different_steps", message, b_span, format!("{b_step} s"))
         .with_label(a_span, format!("{a_step} s"))
         .with_help("all models in use share one sampling time")
+        .perhaps_by(
+            format!("write `step {a_step} s` here"),
+            vec![Edit::Replace(b_span, format!("step {a_step} s"))],
+        )
+        .perhaps_by(
+            format!("write `step {b_step} s` there"),
+            vec![Edit::Replace(a_span, format!("step {b_step} s"))],
+        )
 }
 
 pub(in crate::check) fn not_positive(span: Span, what: &str, value: &Rational) -> Diagnostic {
@@ -45,6 +54,7 @@ pub(in crate::check) fn integrator_clash(integrator: Span, other: Span, what: &s
     let message = format!("`integrator` stands for the whole model: `{what}` may not be given too");
     Diagnostic::error("dosm::check::integrator_clash", message, other, "given here")
         .with_label(integrator, "the integrator")
+        .perhaps_by(format!("remove `{what}`"), vec![Edit::Remove(other)])
 }
 
 pub(in crate::check) fn stiff_model(span: Span) -> Diagnostic {
@@ -60,7 +70,10 @@ pub(in crate::check) fn bad_order(span: Span, order: i64, most: usize) -> Diagno
 
 pub(in crate::check) fn duplicate_signal(name: &Name, first: Span) -> Diagnostic {
     let message = format!("`{}` is given twice", name.text);
-    Diagnostic::error("dosm::check::duplicate", message, name.span, "again").with_label(first, "first here")
+    let other = format!("{}_2", name.text);
+    Diagnostic::error("dosm::check::duplicate", message, name.span, "again")
+        .with_label(first, "first here")
+        .perhaps_by(format!("call this one `{other}`"), vec![Edit::Replace(name.span, other)])
 }
 
 pub(in crate::check) fn unknown_signal<'s>(
@@ -72,7 +85,7 @@ pub(in crate::check) fn unknown_signal<'s>(
     let message = format!("the model has no {wanted} `{}`", name.text);
     let diagnostic = Diagnostic::error("dosm::check::unknown_signal", message, name.span, "not declared");
     match nearest(&name.text, names.iter().copied()) {
-        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")).meant(name.span, near),
         None => diagnostic.with_help(format!("it has {}", names.join(", "))),
     }
 }
@@ -87,6 +100,7 @@ pub(in crate::check) fn incoherent_unit(span: Span, dimension: Dimension) -> Dia
     let message = "the unit of a state or an input is a coherent SI unit";
     Diagnostic::error("dosm::check::incoherent_unit", message, span, "another scale")
         .with_help(format!("write `{dimension}`; values elsewhere may have any unit"))
+        .meant(span, &dimension.to_string())
 }
 
 pub(in crate::check) fn repeated_position(name: &Name) -> Diagnostic {
@@ -117,8 +131,10 @@ pub(in crate::check) fn wrong_matrix_size(
 pub(in crate::check) fn missing_bound(name: &Name, inputs: &[&str]) -> Diagnostic {
     let list = inputs.join(", ");
     let message = format!("the model `{}` has an input without a bound: {list}", name.text);
+    let item = format!("bound {list} in [-4, 4]");
     Diagnostic::error("dosm::check::missing_bound", message, name.span, "every input needs a bound")
-        .with_help(format!("add an item such as `bound {list} in [-4, 4]`"))
+        .with_help(format!("add an item such as `{item}`"))
+        .perhaps_by(format!("add `{item}`"), vec![Edit::IntoBlock(name.span, item)])
 }
 
 pub(in crate::check) fn repeated_interval(name: &Name, first: Span) -> Diagnostic {
@@ -127,10 +143,15 @@ pub(in crate::check) fn repeated_interval(name: &Name, first: Span) -> Diagnosti
 }
 
 /// The ends are given as written, so that the help can swap them.
-pub(in crate::check) fn empty_interval(span: Span, from: &str, to: &str) -> Diagnostic {
+pub(in crate::check) fn empty_interval(
+    span: Span,
+    (from, from_span): (&str, Span),
+    (to, to_span): (&str, Span),
+) -> Diagnostic {
     let message = format!("the interval is empty: {from} is above {to}");
     Diagnostic::error("dosm::check::empty_interval", message, span, "lower end above the upper one")
         .with_help(format!("write `[{to}, {from}]`"))
+        .mended_by("swap the ends", vec![Edit::Swap(from_span, to_span)])
 }
 
 pub(in crate::check) fn point_bound(span: Span) -> Diagnostic {

@@ -1,10 +1,10 @@
 //! What is wrong with formulas.
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::quantity::Dimension;
 use crate::source::Span;
-use crate::syntax::ast::{Name, Reference};
+use crate::syntax::ast::{Name, Reference, Window};
 
 pub(in crate::check) fn wrong_window_dimension(span: Span, found: Dimension) -> Diagnostic {
     let message = format!("a window is in steps or in times, not in {found}");
@@ -23,11 +23,12 @@ pub(in crate::check) fn negative_window(span: Span, number: &Rational) -> Diagno
         .with_help("windows begin at 0, the present, or later")
 }
 
-pub(in crate::check) fn reversed_window(span: Span, m: &Rational, n: &Rational) -> Diagnostic {
+pub(in crate::check) fn reversed_window(window: &Window, m: &Rational, n: &Rational) -> Diagnostic {
     let [m, n] = [m, n].map(super::shown);
     let message = format!("the window ends at step {n} before it begins at step {m}");
-    Diagnostic::error("dosm::check::bad_window", message, span, "the wrong way round")
+    Diagnostic::error("dosm::check::bad_window", message, window.span, "the wrong way round")
         .with_help(format!("write `[{n}, {m}]`"))
+        .mended_by("swap the ends", vec![Edit::Swap(window.from.span, window.to.span)])
 }
 
 pub(in crate::check) fn long_window(span: Span, most: i64) -> Diagnostic {
@@ -50,19 +51,29 @@ pub(in crate::check) fn window_between_steps(
     let window = |from: Rational, to: Rational| format!("`[{}, {}]`", end(from), end(to));
     let inner = (m.ceil(), n.floor());
     let outer = window(m.floor(), n.ceil());
-    let help = if inner.0 <= inner.1 {
-        format!("the nearest ones that are: {} inside, {outer} around", window(inner.0, inner.1))
-    } else {
-        format!("the nearest one that is: {outer}")
-    };
     let label = format!("steps {} to {}", super::shown(m), super::shown(n));
-    Diagnostic::error("dosm::check::window_between_steps", message, span, label).with_help(help)
+    let diagnostic = Diagnostic::error("dosm::check::window_between_steps", message, span, label);
+    let write = |window: &str| vec![Edit::Replace(span, window.trim_matches('`').into())];
+    if inner.0 <= inner.1 {
+        let inner = window(inner.0, inner.1);
+        return diagnostic
+            .with_help(format!("the nearest ones that are: {inner} inside, {outer} around"))
+            .perhaps_by(format!("write {inner}, the window inside"), write(&inner))
+            .perhaps_by(format!("write {outer}, the window around"), write(&outer));
+    }
+    diagnostic
+        .with_help(format!("the nearest one that is: {outer}"))
+        .perhaps_by(format!("write {outer}, the window around"), write(&outer))
 }
 
 pub(in crate::check) fn count_of_another(variable: &Name, member: &Reference) -> Diagnostic {
     let message = format!("the count runs over `{}`, but looks at `{}`", variable.text, member.name.text);
     Diagnostic::error("dosm::check::count_of_another", message, member.span, format!("`{}`?", variable.text))
         .with_label(variable.span, "the counted variable")
+        .mended_by(
+            format!("look at `{}`", variable.text),
+            vec![Edit::Replace(member.span, variable.text.clone())],
+        )
 }
 
 pub(in crate::check) fn formula_too_large(span: Span, most: usize) -> Diagnostic {

@@ -1,14 +1,17 @@
 //! What is wrong with names.
 
 use crate::check::names::{Kind, Symbol};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::quantity::SYMBOLS;
 use crate::source::Span;
 use crate::syntax::ast::{Name, Reference};
 
 fn did_you_mean(diagnostic: Diagnostic, near: Option<&str>) -> Diagnostic {
     match near {
-        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        Some(near) => {
+            let place = diagnostic.labels.first().map_or(Span::default(), |label| label.span);
+            diagnostic.with_help(format!("did you mean `{near}`?")).meant(place, near)
+        }
         None => diagnostic,
     }
 }
@@ -77,6 +80,12 @@ pub(in crate::check) fn duplicate_name(name: &Name, kind: Kind, first: Symbol) -
     let message = format!("`{}` is declared twice", name.text);
     Diagnostic::error("dosm::check::duplicate", message, name.span, format!("again, as {}", kind.a_noun()))
         .with_label(first.span, format!("first declared here, as {}", first.kind.a_noun()))
+        .perhaps_by(format!("call this one `{}_2`", name.text), another_name(name, "_2"))
+}
+
+/// A declared name with something behind it.
+fn another_name(name: &Name, behind: &str) -> Vec<Edit> {
+    vec![Edit::Replace(name.span, format!("{}{behind}", name.text))]
 }
 
 pub(in crate::check) fn repeated(what: &str, first: Span, second: Span) -> Diagnostic {
@@ -86,6 +95,8 @@ pub(in crate::check) fn repeated(what: &str, first: Span, second: Span) -> Diagn
     );
     Diagnostic::error("dosm::check::duplicate", message, second, "the second one")
         .with_label(first, "the first one")
+        .perhaps_by("remove the second one", vec![Edit::Remove(second)])
+        .perhaps_by("remove the first one", vec![Edit::Remove(first)])
 }
 
 pub(in crate::check) fn predeclared_name(name: &Name) -> Diagnostic {
@@ -122,6 +133,12 @@ pub(in crate::check) fn misplaced_doc(span: Span) -> Diagnostic {
         "not directly before a declaration, an item or a state",
     )
     .with_help("write `//` for a plain comment")
+    .mended_by("write `//`, a plain comment", plain_comment(span))
+}
+
+/// The slashes of `///` or `//!`, exchanged.
+fn plain_comment(span: Span) -> Vec<Edit> {
+    vec![Edit::Replace(Span { end: span.end.min(span.start + 3), ..span }, "//".into())]
 }
 
 pub(in crate::check) fn circle(what: &str, names: &[&Name]) -> Diagnostic {

@@ -1,7 +1,7 @@
 //! What is wrong with numbers, units and expressions.
 
 use crate::check::names::{Kind, nearest};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::quantity::{Dimension, SYMBOLS};
 use crate::source::Span;
@@ -18,9 +18,12 @@ pub(in crate::check) fn number_out_of_range(span: Span) -> Diagnostic {
 
 pub(in crate::check) fn not_whole(span: Span, number: &Rational) -> Diagnostic {
     let message = format!("a whole number is needed, not {}", super::shown(number));
-    let help =
-        format!("the nearest are {} and {}", super::shown(&number.floor()), super::shown(&number.ceil()));
-    Diagnostic::error("dosm::check::not_whole", message, span, "not a whole number").with_help(help)
+    let [below, above] = [number.floor(), number.ceil()].map(|n| super::shown(&n));
+    let write = |number: &str| vec![Edit::Replace(span, number.into())];
+    Diagnostic::error("dosm::check::not_whole", message, span, "not a whole number")
+        .with_help(format!("the nearest are {below} and {above}"))
+        .perhaps_by(format!("write `{below}`"), write(&below))
+        .perhaps_by(format!("write `{above}`"), write(&above))
 }
 
 pub(in crate::check) fn wrong_dimension(span: Span, found: Dimension, expected: Dimension) -> Diagnostic {
@@ -36,8 +39,11 @@ pub(in crate::check) fn dimensions_disagree(
     let diagnostic = Diagnostic::error("dosm::check::wrong_dimension", message, left, a.describe())
         .with_label(right, b.describe());
     if a.is_bare() || b.is_bare() {
-        let unit = if a.is_bare() { b } else { a };
-        return diagnostic.with_help(format!("give the number its unit, such as `1 {unit}`"));
+        let (bare, unit) = if a.is_bare() { (left, b) } else { (right, a) };
+        let edits = vec![Edit::GiveUnit(bare, unit.to_string())];
+        return diagnostic
+            .with_help(format!("give the number its unit, such as `1 {unit}`"))
+            .perhaps_by(format!("give it the unit `{unit}`"), edits);
     }
     diagnostic
 }
@@ -50,13 +56,14 @@ pub(in crate::check) fn unit_twice(span: Span, dimension: Dimension, unit: Span)
         "the second unit",
     )
     .with_label(span, format!("already {}", dimension.describe()))
+    .mended_by("remove the second unit", vec![Edit::Remove(unit)])
 }
 
 pub(in crate::check) fn unknown_unit(span: Span, symbol: &str) -> Diagnostic {
     let message = format!("there is no unit `{symbol}`");
     let diagnostic = Diagnostic::error("dosm::check::unknown_unit", message, span, "not a unit");
     match nearest(symbol, SYMBOLS.into_iter()) {
-        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")).meant(span, near),
         None => diagnostic.with_help(format!("the units are {}", SYMBOLS.join(", "))),
     }
 }
@@ -95,7 +102,10 @@ pub(in crate::check) fn unknown_function(function: &Name, near: Option<&str>) ->
     let diagnostic =
         Diagnostic::error("dosm::check::unknown_function", message, function.span, "not a function");
     let all = "the functions are sqrt, sin, cos, min, max, abs, floor and mod";
-    diagnostic.with_help(near.map_or(all.to_string(), |near| format!("did you mean `{near}`?")))
+    match near {
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")).meant(function.span, near),
+        None => diagnostic.with_help(all),
+    }
 }
 
 pub(in crate::check) fn function_without_arguments(name: &Name) -> Diagnostic {
@@ -138,6 +148,7 @@ pub(in crate::check) fn table_as_number(name: &Name) -> Diagnostic {
     let message = format!("`{}` is a table, not a number", name.text);
     Diagnostic::error("dosm::check::table_as_number", message, name.span, "which entry?")
         .with_help(format!("name an entry, such as `{}[1, 1]`", name.text))
+        .perhaps_by(format!("write `{}[1, 1]`", name.text), vec![Edit::Append(name.span, "[1, 1]".into())])
 }
 
 pub(in crate::check) fn wrong_index_count(reference: &Reference, height: usize, width: usize) -> Diagnostic {

@@ -1,7 +1,7 @@
 //! What is wrong with the mission as a whole.
 
 use crate::check::names::nearest;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -28,13 +28,19 @@ pub(in crate::check) fn missing_base(span: Span) -> Diagnostic {
     let message = "the mission has no base that the robots could reach";
     Diagnostic::error("dosm::check::missing_base", message, span, "must reach a base at every step")
         .with_help("add one, such as `base B1 at (1, 1)`, or write `connectivity none`")
+        .perhaps_by("add `base B1 at (1, 1)`", vec![Edit::AtEnd("base B1 at (1, 1)".into())])
+        .perhaps_by("add `connectivity none`", vec![Edit::AtEnd("connectivity none".into())])
 }
 
 pub(in crate::check) fn bad_horizon(from: Span, to: Span, a: i64, b: i64, most: i64) -> Diagnostic {
     let message = format!("the horizon {a}..{b} is none: 1 ≤ A ≤ B ≤ {most}");
-    let help = if b < a && b >= 1 { Some(format!("write `horizon {b}..{a}`")) } else { None };
     let diagnostic = Diagnostic::error("dosm::check::bad_horizon", message, from.to(to), "no lengths to try");
-    Diagnostic { help, ..diagnostic }
+    if b < a && (1..=most).contains(&b) {
+        return diagnostic
+            .with_help(format!("write `horizon {b}..{a}`"))
+            .mended_by("swap the ends", vec![Edit::Swap(from, to)]);
+    }
+    diagnostic
 }
 
 pub(in crate::check) fn bad_hops(span: Span, hops: i64) -> Diagnostic {
@@ -80,7 +86,12 @@ pub(in crate::check) fn unknown_objective(word: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::error("dosm::check::unknown_objective", message, word.span, "not an objective");
     match nearest(&word.text, OBJECTIVES.into_iter()) {
-        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
-        None => diagnostic.with_help("`effort` or `length`"),
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")).meant(word.span, near),
+        None => {
+            OBJECTIVES.iter().fold(diagnostic.with_help("`effort` or `length`"), |diagnostic, objective| {
+                let edits = vec![Edit::Replace(word.span, (*objective).into())];
+                diagnostic.perhaps_by(format!("write `{objective}`"), edits)
+            })
+        }
     }
 }

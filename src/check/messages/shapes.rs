@@ -2,7 +2,7 @@
 
 use crate::check::shapes::error_point;
 use crate::check::typed::Blocker;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Edit};
 use crate::exact::Rational;
 use crate::geometry::ShapeError;
 use crate::ir::BlockerKind;
@@ -13,6 +13,10 @@ pub(in crate::check) fn missing_workspace(span: Span) -> Diagnostic {
     let end = Span { start: span.end, end: span.end };
     Diagnostic::error("dosm::check::missing_workspace", "the mission has no workspace", end, "missing")
         .with_help("add one, such as `workspace box (0, 0) .. (12, 12)`")
+        .perhaps_by(
+            "add `workspace box (0, 0) .. (12, 12)`",
+            vec![Edit::AtEnd("workspace box (0, 0) .. (12, 12)".into())],
+        )
 }
 
 pub(in crate::check) fn workspace_union(span: Span) -> Diagnostic {
@@ -42,12 +46,19 @@ pub(in crate::check) fn polygon_in_space(span: Span) -> Diagnostic {
         "the workspace has 3 dimensions",
     )
     .with_help("use `hull` in space")
+    .perhaps_by("write `hull`", first_word(span, "polygon", "hull"))
 }
 
 pub(in crate::check) fn disc_in_space(span: Span) -> Diagnostic {
     let message = "a disc lies in the plane";
     Diagnostic::error("dosm::check::wrong_point", message, span, "the workspace has 3 dimensions")
         .with_help("write `ball … radius … norm 2` in space")
+}
+
+/// The word that a piece begins with, exchanged.
+fn first_word(piece: Span, word: &str, other: &str) -> Vec<Edit> {
+    let end = piece.end.min(piece.start + word.len() as u32);
+    vec![Edit::Replace(Span { end, ..piece }, other.into())]
 }
 
 pub(in crate::check) fn misplaced_uncertainty(span: Span) -> Diagnostic {
@@ -78,11 +89,13 @@ pub(in crate::check) fn bad_radius(span: Span, radius: &Rational) -> Diagnostic 
 pub(in crate::check) fn unknown_norm(span: Span, norm: &Rational) -> Diagnostic {
     let message = format!("there is no ball of norm {}", super::shown(norm));
     Diagnostic::error("dosm::check::unknown_norm", message, span, "1 or 2, or none for the ∞-norm")
+        .perhaps_by("write `norm 2`", vec![Edit::Replace(span, "2".into())])
 }
 
 pub(in crate::check) fn unknown_range_norm(span: Span, norm: &Rational) -> Diagnostic {
     let message = format!("links have no length in norm {}", super::shown(norm));
     Diagnostic::error("dosm::check::unknown_norm", message, span, "2, or none for the ∞-norm")
+        .perhaps_by("write `norm 2`", vec![Edit::Replace(span, "2".into())])
         .with_help("`range 6 m` is along each axis, `range 6 m norm 2` as the crow flies")
 }
 
@@ -101,7 +114,7 @@ pub(in crate::check) fn flat_shape(span: Span, reason: &str) -> Diagnostic {
 }
 
 pub(in crate::check) fn box_corners_swapped(
-    (first, second): (Span, Span),
+    (first, second): (&Point, &Point),
     p: &[Rational],
     q: &[Rational],
 ) -> Diagnostic {
@@ -110,14 +123,19 @@ pub(in crate::check) fn box_corners_swapped(
         format!("({})", list.collect::<Vec<_>>().join(", "))
     };
     let help = format!("write `box {} .. {}`", point(|a, b| a < b), point(|a, b| a > b));
+    // Coordinate by coordinate, as they are written: they may depend on an index.
+    let pairs = first.coordinates.iter().zip(&second.coordinates).zip(p.iter().zip(q));
+    let swapped = pairs.filter(|(_, (a, b))| a > b).map(|((a, b), _)| (a.value.span, b.value.span));
+    let edits = swapped.map(|(a, b)| Edit::Swap(a, b)).collect();
     Diagnostic::error(
         "dosm::check::box_corners_swapped",
         "the box's corners are swapped",
-        first,
+        first.span,
         "below the second corner in each coordinate, please",
     )
-    .with_label(second, "the second corner")
+    .with_label(second.span, "the second corner")
     .with_help(help)
+    .mended_by("swap the coordinates", edits)
 }
 
 /// Why points make no polygon, hull or ball.
@@ -137,7 +155,8 @@ pub(in crate::check) fn bad_points(
             "the outline turns the wrong way here",
         )
         .with_label(span, format!("this {shape}"))
-        .with_help("cut it into convex pieces joined by `or`, or use `hull`"),
+        .with_help("cut it into convex pieces joined by `or`, or use `hull`")
+        .perhaps_by("write `hull`, which fills the dent", first_word(span, shape, "hull")),
         ShapeError::Duplicate { first, .. } => Diagnostic::error(
             "dosm::check::duplicate_point",
             format!("the {shape} has the same corner twice"),
@@ -185,13 +204,13 @@ pub(in crate::check) fn no_coordinate(span: Span) -> Diagnostic {
 
 pub(in crate::check) fn open_inequality(span: Span, op: Comparison) -> Diagnostic {
     let message = "shapes are closed sets: only `<=` and `>=` make a half-space";
-    let help = match op {
-        Comparison::Less => "write `<=`",
-        Comparison::Greater => "write `>=`",
-        _ => "two inequalities with some room between them make a strip",
-    };
-    Diagnostic::error("dosm::check::open_inequality", message, span, "not a closed half-space")
-        .with_help(help)
+    let diagnostic =
+        Diagnostic::error("dosm::check::open_inequality", message, span, "not a closed half-space");
+    match op {
+        Comparison::Less => diagnostic.with_help("write `<=`").meant(span, "<="),
+        Comparison::Greater => diagnostic.with_help("write `>=`").meant(span, ">="),
+        _ => diagnostic.with_help("two inequalities with some room between them make a strip"),
+    }
 }
 
 fn outside(code: &'static str, message: String, span: Span, workspace: Span) -> Diagnostic {
