@@ -125,7 +125,7 @@ pub fn answer(session: &Session, job: Job) -> Result<Value, ResponseError> {
         }
         request::SemanticTokensRangeRequest::METHOD => {
             about!(request::SemanticTokensRangeRequest, |p| p.text_document, |d| {
-                Some(semantic::range(&d, p.range).into())
+                Some(session.colours.range(&d, p.range).into())
             })
         }
         request::HoverRequest::METHOD => {

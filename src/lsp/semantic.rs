@@ -66,15 +66,31 @@ pub fn range(document: &Document, range: Range) -> SemanticTokens {
 /// The colours that were sent last, of each mission, with their names.
 #[derive(Default)]
 pub struct Colours {
+    /// Whether the client colours words, numbers and comments by itself, and finer than the kinds of tokens do.
+    names_only: bool,
     sent: Mutex<BTreeMap<String, (String, Vec<SemanticToken>)>>,
     count: AtomicU64,
 }
 
 impl Colours {
+    /// Colours for a client, which may want those of names only.
+    pub fn new(names_only: bool) -> Colours {
+        Colours { names_only, ..Colours::default() }
+    }
+
+    /// The colours of a range.
+    pub fn range(&self, document: &Document, asked: Range) -> SemanticTokens {
+        self.wanted(range(document, asked))
+    }
+
+    fn wanted(&self, tokens: SemanticTokens) -> SemanticTokens {
+        if self.names_only { SemanticTokens { data: of_names(tokens.data), ..tokens } } else { tokens }
+    }
+
     /// The colours of a whole mission, kept so that later ones can be told by their difference.
     pub fn full(&self, document: &Document) -> SemanticTokens {
         let name = self.count.fetch_add(1, Ordering::Relaxed).to_string();
-        let tokens = SemanticTokens { result_id: Some(name.clone()), ..full(document) };
+        let tokens = SemanticTokens { result_id: Some(name.clone()), ..self.wanted(full(document)) };
         lock(&self.sent).insert(document.uri.as_str().to_string(), (name, tokens.data.clone()));
         tokens
     }
@@ -109,6 +125,29 @@ fn delta(before: &[SemanticToken], after: &SemanticTokens) -> SemanticTokensDelt
     };
     let edits = if edit.delete_count == 0 && head + tail == now.len() { Vec::new() } else { vec![edit] };
     SemanticTokensDelta { result_id: after.result_id.clone(), edits }
+}
+
+/// The tokens that are names; what a client's own grammar colours is left out.
+fn of_names(all: Vec<SemanticToken>) -> Vec<SemanticToken> {
+    const OTHERS: [SemanticTokenType; 5] = [
+        SemanticTokenType::KEYWORD,
+        SemanticTokenType::OPERATOR,
+        SemanticTokenType::NUMBER,
+        SemanticTokenType::TYPE,
+        SemanticTokenType::COMMENT,
+    ];
+    let (mut kept, mut lines, mut columns) = (Vec::new(), 0, 0);
+    for token in all {
+        columns = if token.delta_line > 0 { token.delta_start } else { columns + token.delta_start };
+        lines += token.delta_line;
+        if TYPES.get(token.token_type as usize).is_none_or(|kind| OTHERS.contains(kind)) {
+            continue;
+        }
+        kept.push(SemanticToken { delta_line: lines, delta_start: columns, ..token });
+        // The next one is relative to this one.
+        (lines, columns) = (0, 0);
+    }
+    kept
 }
 
 /// A colour: type and modifiers.

@@ -48,6 +48,8 @@ pub struct Client {
     pub insert_replace: bool,
     /// Whether what is said about a completion may be Markdown.
     pub markdown_completion: bool,
+    /// Whether it colours what needs no meaning by itself.
+    pub own_colours: bool,
 }
 
 impl Client {
@@ -80,6 +82,9 @@ impl Client {
             markdown_completion: item
                 .and_then(|i| i.documentation_format.as_ref())
                 .is_some_and(|formats| formats.contains(&lsp_types::MarkupKind::Markdown)),
+            own_colours: text
+                .and_then(|t| t.semantic_tokens.as_ref()?.augments_syntax_tokens)
+                .unwrap_or(false),
         }
     }
 }
@@ -124,7 +129,7 @@ impl Session {
             host,
             runs: Runs::default(),
             tubes: Tubes::default(),
-            colours: Colours::default(),
+            colours: Colours::new(client.own_colours),
             shelf: Shelf::default(),
             folders: Mutex::default(),
             outgoing,

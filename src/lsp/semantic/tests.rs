@@ -191,3 +191,22 @@ fn a_change_is_one_edit() {
     assert_eq!(changed, flat(&after.data));
     assert!(super::delta(&after.data, &after).edits.is_empty());
 }
+
+#[test]
+fn a_client_with_colours_of_its_own_gets_those_of_names() {
+    let text = "dosm 1\nregion A = box (0, 0) .. (1, 1) m // A\n\ngoal g: always R in A or A\n";
+    let document = document(text);
+    let colours = Colours::new(true);
+    let all = places(&full(&document).data);
+    let others = ["keyword", "operator", "number", "type", "comment"];
+    let is_name = |kind: u32| !others.contains(&TYPES[kind as usize].as_str());
+    let names: Vec<_> = all.into_iter().filter(|place| is_name(place.3)).collect();
+    assert!(names.len() >= 4, "{names:?}");
+    let kept = colours.full(&document);
+    assert_eq!(places(&kept.data), names);
+    let part = Range::new(Position::new(3, 0), Position::new(4, 0));
+    let here: Vec<_> = names.into_iter().filter(|place| place.0 == 3).collect();
+    assert_eq!(places(&colours.range(&document, part).data), here);
+    let same = colours.delta(&document, kept.result_id.as_deref().expect("a name"));
+    assert!(matches!(same, SemanticTokensFullDeltaResult::TokensDelta(delta) if delta.edits.is_empty()));
+}
