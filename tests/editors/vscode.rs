@@ -192,3 +192,43 @@ fn files(directory: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(directory).expect("a directory").map(|entry| entry.expect("an entry").path());
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
+
+#[test]
+fn the_guide_names_every_setting_and_command() {
+    let manifest = json("package.json");
+    let contributes = &manifest["contributes"];
+    for page in ["docs/editors/vscode.md", "editors/vscode/README.md"] {
+        let text = fs::read_to_string(package(page)).unwrap_or_else(|e| panic!("{page}: {e}"));
+        for (name, setting) in contributes["configuration"]["properties"].as_object().expect("settings") {
+            let shown =
+                setting["default"].as_str().map_or_else(|| setting["default"].to_string(), str::to_owned);
+            assert!(text.contains(&format!("| `{name}` | `{shown}` |")), "{page}: {name} = {shown}");
+        }
+    }
+    let readme = fs::read_to_string(package("editors/vscode/README.md")).expect("the readme");
+    for command in contributes["commands"].as_array().expect("commands") {
+        let title = command["title"].as_str().expect("a title");
+        let last = title.rsplit(' ').next().unwrap_or("");
+        assert!(readme.contains(title) || readme.contains(&format!("… {last}`")), "{title}");
+    }
+}
+
+#[test]
+fn links_between_the_pages_about_editors_lead_somewhere() {
+    let mut count = 0;
+    for entry in fs::read_dir(package("docs/editors")).expect("a directory") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).expect("a page");
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let file = link.split('#').next().unwrap_or("");
+            if !link.starts_with("http") && !file.is_empty() {
+                assert!(path.with_file_name(file).exists(), "{}: {link}", path.display());
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 10, "{count}");
+}

@@ -10,6 +10,7 @@ import {
   State,
 } from "vscode-languageclient/node";
 
+import { showPicture } from "./picture";
 import { findProgram, notFound, Surroundings } from "./program";
 
 /** Where the guide says how to install the compiler. */
@@ -85,6 +86,19 @@ async function start(): Promise<void> {
     revealOutputChannelOn: RevealOutputChannelOn.Never,
     // It is said below, with what can be done.
     initializationFailedHandler: () => false,
+    middleware: {
+      window: {
+        // Pictures open beside the mission; other programs show the rest.
+        showDocument: async (asked, next) => {
+          if (asked.external && asked.uri.endsWith(".svg")) {
+            showPicture(vscode.Uri.parse(asked.uri));
+            return { success: true };
+          }
+          const answer = await next(asked, new vscode.CancellationTokenSource().token);
+          return "success" in answer ? answer : { success: false };
+        },
+      },
+    },
   };
   log.info(`starting ${[server.command, ...(server.args ?? [])].join(" ")}`);
   client = new LanguageClient("dosmc", "dosmc", { run: server, debug: server }, options);
