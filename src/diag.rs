@@ -13,6 +13,8 @@ pub mod render;
 pub use fix::{Edit, Fix};
 pub use printable::printable;
 
+use std::collections::BTreeSet;
+
 use crate::source::Span;
 
 /// How much a diagnostic weighs.
@@ -116,6 +118,8 @@ pub struct Reported(());
 #[derive(Clone, Default, Debug)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// The codes with their primary places: of which a repetition may be.
+    known: BTreeSet<(&'static str, Option<Span>)>,
 }
 
 impl Diagnostics {
@@ -126,7 +130,9 @@ impl Diagnostics {
 
     /// Adds a diagnostic; an exact repetition is dropped.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        if !self.list.contains(&diagnostic) {
+        let key = (diagnostic.code, diagnostic.labels.first().map(|label| label.span));
+        // A long mission may have an unused declaration on each line.
+        if self.known.insert(key) || !self.list.contains(&diagnostic) {
             self.list.push(diagnostic);
         }
     }

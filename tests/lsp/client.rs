@@ -170,6 +170,14 @@ impl Client {
         self.diagnostics(uri).iter().map(code).collect()
     }
 
+    /// The most memory that the server has taken, in bytes, where the system tells.
+    pub fn peak_memory(&self) -> Option<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.server.id())).ok()?;
+        let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+        let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+        Some(kibibytes << 10)
+    }
+
     /// Ends the session as the protocol asks.
     pub fn end(mut self) -> ExitStatus {
         self.ask("shutdown", Value::Null);

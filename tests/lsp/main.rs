@@ -4,6 +4,7 @@
 
 mod client;
 mod features;
+mod hostile;
 mod life;
 mod names;
 mod outline;
