@@ -12,7 +12,7 @@ use super::queue::Job;
 use super::session::{Session, refusal};
 use super::{
     actions, completion, folding, formatting, highlight, hover, inlay, lens, navigation, outline, rename,
-    selection, semantic, signature, symbols,
+    selection, signature, symbols,
 };
 
 /// The answer to a request.
