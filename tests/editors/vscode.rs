@@ -144,7 +144,7 @@ fn the_client_has_no_type_errors() {
 
 #[test]
 fn the_program_is_found_and_lines_go_on_as_they_should() {
-    let Some(mut test) = node("--test", "the client's own tests") else { return };
+    let Some(mut test) = node("--test", "the test of the client by itself") else { return };
     let printed = output(test.args(["test/program.test.mjs", "test/configuration.test.mjs"]));
     assert!(printed.contains("# fail 0") && !printed.contains("# pass 0"), "{printed}");
 }
