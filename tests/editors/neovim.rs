@@ -143,6 +143,7 @@ fn the_language_server_serves_a_whole_session() {
     assert_eq!(answer["definition"], json!([line("region docks"), "region ".len()]));
     assert_eq!(answer["references"], 2);
     let mended = MISSION.replace("yrad", "yard");
+    assert_eq!(answer["mended"], mended, "a code action mends it: {}", answer["actions"]);
     let renamed = mended.replace("docks", "harbour");
     assert_eq!(answer["renamed"], renamed);
     let offered = answer["offered"].as_array().expect("items");

@@ -93,7 +93,7 @@ function questions.session()
     return { one.lnum, one.col, one.end_lnum, one.end_col, one.severity, one.message, one.source, one.code }
   end, vim.diagnostic.get(0))
 
-  if client().server_capabilities.codeActionProvider then
+  do
     go(ask.wrong.line, ask.wrong.token)
     local at = vim.lsp.util.make_range_params(0, client().offset_encoding)
     local row = ask.wrong.line - 1
@@ -111,11 +111,6 @@ function questions.session()
     end
   end
   answer.mended = text()
-  -- By hand, as somebody would who types.
-  local row, start = ask.wrong.line - 1, vim.fn.getline(ask.wrong.line):find(ask.wrong.token, 1, true)
-  if start then
-    vim.api.nvim_buf_set_text(0, row, start - 1, row, start - 1 + #ask.wrong.token, { ask.wrong.meant })
-  end
   await("no diagnostics", function()
     return #vim.diagnostic.get(0) == 0
   end)
@@ -139,7 +134,7 @@ function questions.session()
   end)
   answer.renamed = text()
 
-  if client().server_capabilities.completionProvider then
+  do
     local line = vim.fn.getline(ask.used.line)
     vim.api.nvim_buf_set_lines(0, ask.used.line - 1, ask.used.line, false, { line:gsub("in harbour.*", "in ") .. "" })
     vim.api.nvim_win_set_cursor(0, { ask.used.line, #vim.fn.getline(ask.used.line) })
@@ -150,7 +145,7 @@ function questions.session()
     vim.api.nvim_buf_set_lines(0, ask.used.line - 1, ask.used.line, false, { line })
   end
 
-  if client().server_capabilities.documentSymbolProvider then
+  do
     local symbols = request("textDocument/documentSymbol")
     answer.symbols = vim.tbl_map(function(symbol)
       return symbol.name
