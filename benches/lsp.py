@@ -63,6 +63,7 @@ class Server:
     def __init__(self, binary):
         self.process = subprocess.Popen([binary, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.requests = self.version = 0
+        self.passed = []
         self.ask("initialize", {"capabilities": {}})
         self.tell("initialized", {})
 
@@ -87,8 +88,12 @@ class Server:
         return json.loads(self.process.stdout.read(length))
 
     def wait(self, wanted):
+        # What came while something else was waited for has come all the same.
+        for index, message in enumerate(self.passed):
+            if wanted(message):
+                return self.passed.pop(index)
         while not wanted(message := self.receive()):
-            pass
+            self.passed.append(message)
         return message
 
     def ask(self, method, params):
