@@ -80,7 +80,8 @@ impl Document {
                 (anew, kept) = (None, Some(Position::default()));
                 continue;
             };
-            if kept.is_some_and(|kept| range.end > kept) {
+            // At a line's start, a `\n` may have come behind the `\r` that was the line break.
+            if kept.is_some_and(|kept| range.end > kept || range.end == kept && kept.character == 0) {
                 (anew, kept) = (Some(Lines::new(&text, encoding)), None);
             }
             let lines = anew.as_ref().unwrap_or(&self.lines);
@@ -205,6 +206,12 @@ mod tests {
         let whole = TextDocumentContentChangeEvent { range: None, range_length: None, text: "x\ny".into() };
         let after = before.changed(2, vec![whole, change((1, 0), (1, 1), "z")], Encoding::Utf16);
         assert_eq!(after.source.text, "x\nz");
+    }
+
+    #[test]
+    fn a_line_break_may_grow_between_two_changes() {
+        let changes = vec![change((1, 0), (1, 0), "\n"), change((1, 0), (1, 0), "-")];
+        assert_eq!(document("a\rb").changed(2, changes, Encoding::Utf16).source.text, "a\r\n-b");
     }
 
     #[test]
