@@ -98,10 +98,9 @@ impl Mirror {
     /// The next such place.
     fn aligned(&self, unit: usize) -> usize {
         let unit = unit.min(self.units.len());
-        let is_inside = match (unit.checked_sub(1).map(|before| self.units[before]), self.units.get(unit)) {
-            (Some(0xd800..0xdc00), Some(_)) | (Some(13), Some(10)) => true,
-            _ => false,
-        };
+        let before = unit.checked_sub(1).map(|before| self.units[before]);
+        let is_inside =
+            matches!((before, self.units.get(unit)), (Some(0xd800..0xdc00), Some(_)) | (Some(13), Some(10)));
         if is_inside { unit + 1 } else { unit }
     }
 
