@@ -3,11 +3,11 @@
 #![allow(clippy::disallowed_methods, reason = "reads what the server wrote")]
 
 mod client;
-mod features;
 mod hostile;
 mod life;
 mod names;
 mod outline;
 mod plan;
 mod reading;
+mod table;
 mod texts;
