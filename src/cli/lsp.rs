@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, BufReader, BufWriter};
 use std::path::{Path, PathBuf};
+use std::process;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -28,17 +29,21 @@ use crate::syntax;
 pub fn lsp(overrides: &Overrides, output: &Output) -> Status {
     let incoming = reader();
     let (outgoing, writer) = writer();
-    let host: Arc<dyn Host> = Arc::new(World::new(overrides.float));
+    let world = Arc::new(World::new(overrides.float));
+    let killed = Arc::clone(&world);
+    // Without a handler the process ends as well, and only leaves its directory behind.
+    let _ = ctrlc::set_handler(move || {
+        killed.clean();
+        process::exit(Status::Usage.code().into());
+    });
+    let host: Arc<dyn Host> = Arc::<World>::clone(&world);
     let ending = lsp::serve(&incoming, &outgoing, overrides, &host);
-    drop(outgoing);
+    // All has been answered; what is still in the channel goes out, and nothing after it.
+    let _ = outgoing.send(Value::Null);
+    let _ = writer.join();
+    world.clean();
     match ending {
-        Ending::Orderly => {
-            // All has been answered; what is still in the channel goes out.
-            drop(host);
-            let _ = writer.join();
-            Status::Done
-        }
-        Ending::Unused => Status::Done,
+        Ending::Orderly | Ending::Unused => Status::Done,
         Ending::Abrupt => {
             output.note("the client ended the session without `shutdown`");
             Status::Usage
@@ -60,13 +65,13 @@ fn reader() -> Receiver<wire::Arrival> {
     receiver
 }
 
-/// What is sent goes to standard output, written in a thread of its own.
+/// What is sent goes to standard output, up to a null, written in a thread of its own.
 fn writer() -> (Sender<Value>, JoinHandle<()>) {
     let (sender, receiver) = mpsc::channel::<Value>();
     let writer = thread::spawn(move || {
         let mut output = BufWriter::new(io::stdout());
         while let Ok(value) = receiver.recv() {
-            if wire::write(&mut output, &value).is_err() {
+            if value.is_null() || wire::write(&mut output, &value).is_err() {
                 break;
             }
         }
@@ -79,21 +84,40 @@ struct World {
     started: Instant,
     float: Float,
     /// Holds explanations and the plans of missions without a place; gone with the server.
-    scratch: Mutex<Option<tempfile::TempDir>>,
+    scratch: Mutex<Scratch>,
+}
+
+/// A directory that the server makes when it needs one.
+enum Scratch {
+    /// Nobody needed it.
+    None,
+    /// It is there as long as this.
+    Made(tempfile::TempDir),
+    /// The server ends.
+    Over,
 }
 
 impl World {
     fn new(float: Float) -> World {
-        World { started: Instant::now(), float, scratch: Mutex::new(None) }
+        World { started: Instant::now(), float, scratch: Mutex::new(Scratch::None) }
     }
 
-    /// The server's own directory, made when it is first needed.
+    /// The server's own directory, made when it is first needed; none once it has ended.
     fn scratch(&self) -> Option<PathBuf> {
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner);
-        if scratch.is_none() {
-            *scratch = tempfile::Builder::new().prefix("dosmc-").tempdir().ok();
+        if let Scratch::None = *scratch {
+            let made = tempfile::Builder::new().prefix("dosmc-").tempdir();
+            *scratch = made.map_or(Scratch::None, Scratch::Made);
         }
-        scratch.as_ref().map(|directory| directory.path().to_path_buf())
+        match &*scratch {
+            Scratch::Made(directory) => Some(directory.path().to_path_buf()),
+            Scratch::None | Scratch::Over => None,
+        }
+    }
+
+    /// Removes the server's own directory, whoever still works.
+    fn clean(&self) {
+        *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Scratch::Over;
     }
 
     /// Writes a plan with its pictures and its controller.

@@ -25,9 +25,15 @@ pub struct Client {
 impl Client {
     /// Starts a server that has not heard `initialize` yet.
     pub fn start(arguments: &[&str]) -> Client {
+        Client::start_in(&std::env::temp_dir(), arguments)
+    }
+
+    /// Starts a server that puts temporary files into a directory.
+    pub fn start_in(temporary: &Path, arguments: &[&str]) -> Client {
         let mut server = Command::new(env!("CARGO_BIN_EXE_dosmc"))
             .arg("lsp")
             .args(arguments)
+            .env("TMPDIR", temporary)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -188,6 +194,14 @@ impl Client {
     /// Goes away.
     pub fn vanish(mut self) -> ExitStatus {
         self.input = None;
+        self.server.wait().expect("the server ends")
+    }
+
+    /// Asks the system to end the server.
+    pub fn terminate(mut self) -> ExitStatus {
+        let id = self.server.id().to_string();
+        let sent = Command::new("kill").args(["-TERM", &id]).status().expect("`kill` can be run");
+        assert!(sent.success());
         self.server.wait().expect("the server ends")
     }
 

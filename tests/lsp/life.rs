@@ -1,5 +1,7 @@
 //! A session from beginning to end, and messages that are wrong or come at the wrong time.
 
+use std::process::ExitStatus;
+
 use serde_json::{Value, json};
 
 use crate::client::{Client, everything};
@@ -23,6 +25,23 @@ fn a_client_that_goes_away_ends_the_server_with_status_1() {
     let mut client = Client::begin();
     client.tell("exit", Value::Null);
     assert_eq!(client.left().code(), Some(1), "`exit` without `shutdown`");
+}
+
+#[test]
+fn nothing_stays_behind_however_the_server_ends() {
+    let endings: [fn(Client) -> ExitStatus; 3] = [Client::end, Client::vanish, Client::terminate];
+    for (ending, code) in endings.into_iter().zip([0, 1, 1]) {
+        let temporary = tempfile::tempdir().expect("a directory");
+        let count = || std::fs::read_dir(temporary.path()).expect("it is there").count();
+        let mut client = Client::start_in(temporary.path(), &[]);
+        client.ask("initialize", json!({ "capabilities": everything() }));
+        client.open(URI, "dosm 1\nrobot");
+        // The code's explanation lies there for the link.
+        client.diagnostics(URI);
+        assert_eq!(count(), 1);
+        assert_eq!(ending(client).code(), Some(code));
+        assert_eq!(count(), 0);
+    }
 }
 
 #[test]
