@@ -206,7 +206,9 @@ impl Server {
     ) {
         // A mission that was never opened has no text to change.
         let Some(document) = self.session.document(&id.uri) else { return };
-        self.session.put(document.changed(id.version, content_changes, self.session.client.encoding));
+        let changed = document.changed(id.version, content_changes, self.session.client.encoding);
+        drop(document);
+        self.session.put(changed);
         self.queue.look(id.uri);
     }
 

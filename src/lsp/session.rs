@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use lsp_types::notification::PublishDiagnostics;
@@ -15,12 +16,16 @@ use serde_json::Value;
 use super::document::Document;
 use super::lines::Encoding;
 use super::semantic::Colours;
+use super::server::STACK;
 use super::solve::Runs;
 use super::symbols::Shelf;
 use super::tubes::Tubes;
 use super::wire;
 use super::{Host, diagnostics, location};
 use crate::driver::Overrides;
+
+/// From how many bytes on a mission is large.
+const LARGE: usize = 1 << 18;
 
 /// The open missions, by their URIs.
 pub type Documents = BTreeMap<String, Arc<Document>>;
@@ -171,13 +176,13 @@ impl Session {
     /// Opens a mission, or puts a later moment of it in the earlier one's place.
     pub fn put(&self, document: Document) {
         let key = document.uri.as_str().to_string();
-        Arc::make_mut(&mut lock(&self.documents)).insert(key, Arc::new(document));
+        discard(Arc::make_mut(&mut lock(&self.documents)).insert(key, Arc::new(document)));
     }
 
     /// Closes a mission: nothing is wrong with it any more, and nobody wants a plan of it.
     pub fn close(&self, uri: Uri) {
         let _order = lock(&self.publishing);
-        Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str());
+        discard(Arc::make_mut(&mut lock(&self.documents)).remove(uri.as_str()));
         self.colours.forget(&uri);
         self.runs.close(uri.as_str());
         self.notify::<PublishDiagnostics>(PublishDiagnosticsParams {
@@ -270,6 +275,13 @@ impl Session {
     /// Sends anything, as JSON.
     pub fn send_value(&self, value: Value) {
         let _ = self.outgoing.send(value);
+    }
+}
+
+/// Drops a mission. Taking a large tree apart takes longer than the client should wait for anything else.
+fn discard(document: Option<Arc<Document>>) {
+    if let Some(large) = document.filter(|d| d.source.text.len() > LARGE) {
+        let _ = thread::Builder::new().stack_size(STACK).spawn(move || drop(large));
     }
 }
 
