@@ -82,6 +82,13 @@ impl Runs {
         (*text == document.source.text).then(|| outcome.clone())
     }
 
+    /// A token for a run's progress that no other run has.
+    fn token(&self) -> ProgressToken {
+        let mut started = lock(&self.started);
+        *started += 1;
+        NumberOrString::String(format!("dosmc.solve.{started}"))
+    }
+
     /// Whether a mission is being planned.
     pub fn is_running(&self, document: &Document) -> bool {
         lock(&self.records).get(document.uri.as_str()).is_some_and(|r| r.running.is_some())
@@ -149,15 +156,10 @@ struct Run {
 /// Plans a mission in a thread of its own; the request is answered when that is done. `token` is the client's
 /// for the progress, if it gave one.
 pub fn start(session: &Arc<Session>, id: RequestId, document: Arc<Document>, token: Option<ProgressToken>) {
-    let token = token.unwrap_or_else(|| {
-        let mut started = lock(&session.runs.started);
-        *started += 1;
-        let token = NumberOrString::String(format!("dosmc.solve.{started}"));
-        if session.client.progress {
-            session.ask::<WorkDoneProgressCreate>(WorkDoneProgressCreateParams { token: token.clone() });
-        }
-        token
-    });
+    let (own, token) = match token {
+        Some(token) => (false, token),
+        None => (true, session.runs.token()),
+    };
     let run = Arc::new(Run {
         document,
         session: Arc::clone(session),
@@ -168,6 +170,9 @@ pub fn start(session: &Arc<Session>, id: RequestId, document: Arc<Document>, tok
     });
     if !session.runs.enter(&run) {
         return session.answer(id, Err(refusal(ErrorCode::RequestFailed, "this mission is being planned")));
+    }
+    if own && session.client.progress {
+        session.ask::<WorkDoneProgressCreate>(WorkDoneProgressCreateParams { token: run.token.clone() });
     }
     // Formulas nest, as for the workers.
     let spawned = thread::Builder::new().name("planner".into()).stack_size(super::server::STACK);

@@ -114,5 +114,8 @@ fn a_run_can_be_stopped_and_there_is_one_at_a_time() {
     let id = client.request("workspace/executeCommand", solve(uri));
     client.tell("$/cancelRequest", json!({ "id": id }));
     assert_eq!(client.answer(id)["error"]["code"], -32800);
+    client.heard("window/workDoneProgress/create");
+    let token = client.heard("window/workDoneProgress/create")["token"].clone();
+    client.wait(|m| m["params"]["token"] == token && m["params"]["value"]["kind"] == "end");
     client.end();
 }
