@@ -32,7 +32,9 @@ fn method(name: &str) -> String {
 fn every_request_of_the_table_is_asked_by_a_test() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lsp");
     let files = std::fs::read_dir(folder).expect("the tests").map(|entry| entry.expect("an entry").path());
-    let tests: Vec<String> = files.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
+    // This file names methods without asking them.
+    let others = files.filter(|path| !path.ends_with("table.rs"));
+    let tests: Vec<String> = others.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
     let names = answered();
     assert!(names.len() > 10, "{names:?}");
     let asked = |method: &str| tests.iter().any(|text| text.contains(&format!("\"{method}\"")));
